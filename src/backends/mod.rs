@@ -1,0 +1,99 @@
+//! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
+
+use crate::model::{Budget, Model};
+
+/// One solver family.
+pub trait Backend: Sync {
+    /// `nlopt`, `argmin`.
+    fn name(&self) -> &'static str;
+
+    /// Names accepted by `--algorithm`, besides `auto`.
+    fn algorithms(&self) -> &'static [&'static str];
+
+    /// Why this algorithm cannot take this model, with those that can; `None` where it can (or the name is `auto`).
+    fn refusal(&self, algorithm: &str, model: &dyn Model) -> Option<String>;
+
+    /// Minimises the model. Never panics; failures are solutions with a termination that says so.
+    fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution;
+}
+
+/// What a backend is asked to do.
+pub struct Job<'a> {
+    /// `auto` or one of [`Backend::algorithms`].
+    pub algorithm: &'a str,
+    /// Starting point (the model's own, or a warm start).
+    pub start: &'a [f64],
+    /// Row multipliers known from an earlier answer, as a first guess.
+    pub start_multipliers: Option<&'a [f64]>,
+    /// Tolerances asked for; solvers aim far below them and stop where rounding ends their progress.
+    pub optimality_tolerance: f64,
+    /// Relative step below which a run has stopped moving.
+    pub step_tolerance: f64,
+    /// Relative constraint violation accepted.
+    pub constraint_tolerance: f64,
+    /// Iterations at the most.
+    pub max_iterations: u64,
+    /// Evaluations, deadline, Ctrl-C.
+    pub budget: Budget<'a>,
+    /// True once a point passes the certificate: foreign solvers may stop there.
+    pub stop_test: Option<&'a (dyn Fn(&[f64]) -> bool + Sync)>,
+    /// Called with every iteration (or, where a solver shows none, every improving evaluation).
+    pub observer: &'a mut dyn FnMut(&Iteration<'_>),
+}
+
+/// One line of the log.
+#[derive(Debug, Clone, Copy)]
+pub struct Iteration<'a> {
+    /// Iteration number from 0.
+    pub iteration: u64,
+    /// Objective evaluations so far.
+    pub evaluations: u64,
+    /// f(x)
+    pub objective: f64,
+    /// Largest absolute violation of rows and bounds (fmincon's Feasibility).
+    pub feasibility: f64,
+    /// First-order optimality measure; NaN where the solver has none.
+    pub optimality: f64,
+    /// Norm of the last step.
+    pub step_norm: f64,
+    /// The point.
+    pub x: &'a [f64],
+}
+
+/// Why a run stopped. What the point is, the certificate says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Termination {
+    /// The solver saw no further progress.
+    Converged,
+    /// Iterations, evaluations or time ran out.
+    LimitReached,
+    /// Ctrl-C.
+    Interrupted,
+    /// The solver gave up, or the model gave a value that is no number.
+    Failed,
+    /// The algorithm cannot take this problem; nothing was run.
+    Refused,
+}
+
+/// What a backend brings back.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// The algorithm that ran (`auto` resolved).
+    pub algorithm: String,
+    /// Why it stopped.
+    pub termination: Termination,
+    /// The same in one plain sentence, with the solver's own words and the term that failed.
+    pub message: String,
+    /// The best point; the start where nothing was run.
+    pub x: Vec<f64>,
+    /// The solver's row multipliers at x (L = f + yᵀc + zᵀx), where it has them: a first guess for the certificate.
+    pub multipliers: Option<Vec<f64>>,
+    /// Iterations; `None` where the solver shows none.
+    pub iterations: Option<u64>,
+    /// Objective evaluations.
+    pub evaluations: u64,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// The evaluation error that ended the run, if one did.
+    pub invalid: Option<String>,
+}

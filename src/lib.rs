@@ -1,0 +1,26 @@
+//! ribopt sizes structural ribs: the lightest rectangular (frustum) ribs and H beams that still meet their limits.
+//!
+//! The rooms, in reading order (arrows point down only; `tests/arrows.rs` holds them):
+//!
+//! | room | what happens there |
+//! |---|---|
+//! | [`run`] | one run, start to finish |
+//! | [`input`] | the TOML file and its CSV tables become a checked [`problem::Problem`] |
+//! | [`log`], [`report`] | iteration CSV; tables, JSON, terminal |
+//! | [`crosscheck`] | several backends, one verdict |
+//! | [`backends`] | NLopt and argmin behind one trait |
+//! | [`certificate`] | the proof at a point, by code that knows no solver |
+//! | [`model`] | objective, rows and their exact sparse derivatives |
+//! | [`problem`] | the checked declaration; knows no TOML |
+//! | [`ribs`], [`sections`] | volumes and section properties |
+//! | [`expression`] | parse, differentiate, evaluate |
+//! | [`linear_algebra`] | sparse symmetric factorisation, by a library |
+//! | [`geometry`], [`splines`], [`math`], [`mesh`] | the note's mathematics, geometry and quad meshes |
+#![warn(missing_docs)]
+
+pub mod backends;
+pub mod expression;
+pub mod linear_algebra;
+pub mod model;
+pub mod problem;
+pub mod sections;

@@ -1,0 +1,1 @@
+//! Sparse symmetric indefinite factorisation, by a library.

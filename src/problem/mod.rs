@@ -1,0 +1,214 @@
+//! The checked declaration of a problem: every name resolved, every size known, nothing of TOML left.
+//!
+//! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
+
+pub mod formula;
+pub mod settings;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::sections;
+pub use formula::{Formula, Property};
+pub use settings::Settings;
+
+/// Everything a problem file says, checked.
+#[derive(Debug, Clone, Default)]
+pub struct Problem {
+    /// `title`, or the file's stem.
+    pub title: String,
+    /// Unit labels for reports, e.g. `length = "m"`.
+    pub units: Vec<(String, String)>,
+    /// Minimise or maximise.
+    pub sense: Sense,
+    /// What is minimised or maximised.
+    pub objective: Formula,
+    /// How reports call the objective: the expression as written.
+    pub objective_text: String,
+    /// Scalar variables in their final order: `[variables]` (arrays element by element), then the sections' own.
+    pub variables: Variables,
+    /// `[definitions]`: name and value. They refer to one another by index, without cycles.
+    pub definitions: Vec<(String, Formula)>,
+    /// Formulas of computed section dimensions, pointed at by [`Dimension::Formula`].
+    pub dimension_formulas: Vec<Formula>,
+    /// Cross-sections.
+    pub sections: Sections,
+    /// Ribs.
+    pub ribs: Ribs,
+    /// Constraint declarations, in the file's order.
+    pub constraints: Vec<Constraint>,
+    /// `[solver]`.
+    pub settings: Settings,
+    /// What the reader wants said: moved starts, unused data, …; already worded.
+    pub warnings: Vec<String>,
+}
+
+impl Problem {
+    /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
+    pub fn variable_name(&self, j: usize) -> String {
+        match self.variables.origin[j] {
+            Origin::Scalar(entry) => self.variables.declared[entry as usize].to_string(),
+            Origin::Element(entry, index) => format!("{}[{index}]", self.variables.declared[entry as usize]),
+            Origin::Dimension(section, position) => {
+                let form = sections::form(self.sections.form[section as usize]);
+                format!("{}.{}", self.sections.names[section as usize], form.dimensions[position as usize])
+            }
+        }
+    }
+
+    /// The dimensions of section `s`, in the order of its form's names.
+    pub fn dimensions(&self, s: usize) -> &[Dimension] {
+        let first = &self.sections.first_dimension;
+        &self.sections.dimensions[first[s] as usize..first[s + 1] as usize]
+    }
+}
+
+/// The direction of the objective.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[allow(missing_docs)]
+pub enum Sense {
+    #[default]
+    Minimize,
+    Maximize,
+}
+
+/// Scalar variables, column by column.
+#[derive(Debug, Clone, Default)]
+pub struct Variables {
+    /// Where each comes from; [`Problem::variable_name`] builds the name users see.
+    pub origin: Vec<Origin>,
+    /// Names of `[variables]` entries, pointed at by [`Origin`].
+    pub declared: Vec<Box<str>>,
+    /// Lower bounds, −∞ where open.
+    pub lower: Vec<f64>,
+    /// Upper bounds, +∞ where open.
+    pub upper: Vec<f64>,
+    /// Starting values, already inside the bounds.
+    pub start: Vec<f64>,
+}
+
+/// Where a scalar variable comes from (names of six million variables are not kept as text).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// `depth`: an entry of [`Variables::declared`].
+    Scalar(u32),
+    /// `x[2]`: an entry of [`Variables::declared`] and its index, counted from 1.
+    Element(u32, u32),
+    /// `support.b`: a section and the position of the dimension in its form.
+    Dimension(u32, u8),
+}
+
+/// One dimension of one section, or one given number of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Dimension {
+    /// A fixed number.
+    Constant(f64),
+    /// Exactly one variable (its own, or a link such as `h = "depth"`).
+    Variable(u32),
+    /// A computed value: index into [`Problem::dimension_formulas`].
+    Formula(u32),
+}
+
+/// Cross-sections, column by column. Section `s` has the dimensions
+/// `dimensions[first_dimension[s] .. first_dimension[s + 1]]`, in the order of its form's names.
+#[derive(Debug, Clone, Default)]
+pub struct Sections {
+    /// Names.
+    pub names: Vec<Box<str>>,
+    /// Number for [`crate::sections::form`]: the kind and which of its dimensions are given.
+    pub form: Vec<u16>,
+    /// Offsets into `dimensions`, one more than sections.
+    pub first_dimension: Vec<u32>,
+    /// Dimensions of all sections.
+    pub dimensions: Vec<Dimension>,
+    /// Shapes (points of a polygon, …) for kinds that have one, by section.
+    pub outlines: HashMap<u32, Arc<Vec<[f64; 2]>>>,
+    /// Data columns.
+    pub data: Vec<Column>,
+}
+
+/// Ribs, column by column.
+#[derive(Debug, Clone, Default)]
+pub struct Ribs {
+    /// Names.
+    pub names: Vec<Box<str>>,
+    /// Section at the left end.
+    pub from: Vec<u32>,
+    /// Section at the right end (the same for a prismatic rib).
+    pub to: Vec<u32>,
+    /// Lengths, positive.
+    pub length: Vec<f64>,
+    /// Volume laws.
+    pub law: Vec<VolumeLaw>,
+    /// Data columns.
+    pub data: Vec<Column>,
+}
+
+/// How a rib's volume follows from its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum VolumeLaw {
+    /// l/3·(S1 + S2 + √(S1·S2)), note (2.3.1) and (2.4.1).
+    #[default]
+    Frustum,
+    /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
+    Prismatoid,
+}
+
+/// One data column of sections or ribs.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its cells.
+    pub cells: Cells,
+}
+
+/// The cells of a column. Numbers are NaN where a row has none; texts are indices into `labels`, `u32::MAX` where none.
+#[derive(Debug, Clone)]
+#[allow(missing_docs)]
+pub enum Cells {
+    Numbers(Vec<f64>),
+    Labels { labels: Vec<Box<str>>, of: Vec<u32> },
+}
+
+/// One `[[constraints]]` entry.
+#[derive(Debug, Clone)]
+pub struct Constraint {
+    /// Its name; rows of a scoped one are `name[item]`, of an unnamed one `c1`, `c2`, ….
+    pub name: String,
+    /// Where it stands, ready to print: `file.toml:12`.
+    pub place: String,
+    /// The text of `require`, for reports.
+    pub text: String,
+    /// One row, or one per section, rib or group.
+    pub scope: Scope,
+    /// Left side (or the middle of a range). Inside a scope, item names are resolved to the `Own…` formulas.
+    pub left: Formula,
+    /// Right side. Where it has no variables its value is the row's limit.
+    pub right: Limit,
+}
+
+/// What a row's left side is held against.
+#[derive(Debug, Clone)]
+#[allow(missing_docs)]
+pub enum Limit {
+    AtMost(Formula),
+    AtLeast(Formula),
+    Equal(Formula),
+    Between(Formula, Formula),
+}
+
+/// The items a constraint is repeated for.
+#[derive(Debug, Clone)]
+pub enum Scope {
+    /// One row.
+    Once,
+    /// One row per chosen section, by index.
+    Sections(Vec<u32>),
+    /// One row per chosen rib, by index.
+    Ribs(Vec<u32>),
+    /// One row per group of ribs: label and members. Folds inside run over the members; plain data come from the first.
+    RibGroups(Vec<(Box<str>, Vec<u32>)>),
+    /// One row per group of sections.
+    SectionGroups(Vec<(Box<str>, Vec<u32>)>),
+}

@@ -1,0 +1,147 @@
+//! `h-beam`: a web tw × hw between two flanges b × tf, overall height h = hw + 2·tf.
+//!
+//! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
+
+use super::{Form, Given, Kind};
+use crate::expression::graph::{Graph, NodeId};
+use crate::expression::operators::Binary;
+
+/// The doubly symmetric H (or I) beam.
+pub struct HBeam;
+
+static FORMS: &[Form] = &[
+    Form { kind: "h-beam", dimensions: &["tw", "hw", "b", "tf"] },
+    Form { kind: "h-beam", dimensions: &["tw", "hw", "b", "h"] },
+    Form { kind: "h-beam", dimensions: &["tw", "b", "tf", "h"] },
+    Form { kind: "h-beam", dimensions: &["b1", "h1", "b2", "t"] },
+    Form { kind: "h-beam", dimensions: &["b1", "h1", "b2", "h2"] },
+    Form { kind: "h-beam", dimensions: &["b1", "b2", "t", "h2"] },
+];
+
+/// The four lengths every formula is written in.
+struct Shape {
+    tw: NodeId,
+    hw: NodeId,
+    b: NodeId,
+    /// Thickness of both flanges together.
+    t: NodeId,
+    h: NodeId,
+}
+
+impl Shape {
+    fn of(graph: &mut Graph, given: &Given) -> Shape {
+        let find = |names: [&str; 2]| {
+            let at = given.form.dimensions.iter().position(|name| names.contains(name));
+            at.map(|at| given.dimensions[at])
+        };
+        let (tw, b) = (given.dimensions[0], find(["b", "b2"]).expect("every form has a flange width"));
+        let t = find(["t", "t"]).or_else(|| find(["tf", "tf"]).map(|tf| graph.scale(2.0, tf)));
+        match (find(["hw", "h1"]), t, find(["h", "h2"])) {
+            (Some(hw), Some(t), _) => Shape { tw, hw, b, t, h: graph.add(hw, t) },
+            (Some(hw), None, Some(h)) => Shape { tw, hw, b, t: graph.subtract(h, hw), h },
+            (None, Some(t), Some(h)) => Shape { tw, hw: graph.subtract(h, t), b, t, h },
+            _ => unreachable!("every form gives two of web height, flange thickness and overall height"),
+        }
+    }
+
+    /// Ix = (tw·hw³ + b·t·(t² + 3·hw² + 3·hw·t))/12: [b·h³ − (b − tw)·hw³]/12 without its cancellation.
+    fn ix(&self, graph: &mut Graph) -> NodeId {
+        let hw3 = graph.power(self.hw, 3.0);
+        let web = graph.multiply(self.tw, hw3);
+        let (t2, hw2, hwt) = (graph.power(self.t, 2.0), graph.power(self.hw, 2.0), graph.multiply(self.hw, self.t));
+        let (hw2, hwt) = (graph.scale(3.0, hw2), graph.scale(3.0, hwt));
+        let square = graph.sum(&[t2, hw2, hwt]);
+        let flange = graph.multiply(self.b, self.t);
+        let flanges = graph.multiply(flange, square);
+        let both = graph.add(web, flanges);
+        graph.scale(1.0 / 12.0, both)
+    }
+
+    /// Iy = (t·b³ + hw·tw³)/12
+    fn iy(&self, graph: &mut Graph) -> NodeId {
+        let (b3, tw3) = (graph.power(self.b, 3.0), graph.power(self.tw, 3.0));
+        let (flanges, web) = (graph.multiply(self.t, b3), graph.multiply(self.hw, tw3));
+        let both = graph.add(flanges, web);
+        graph.scale(1.0 / 12.0, both)
+    }
+}
+
+impl Kind for HBeam {
+    fn name(&self) -> &'static str {
+        "h-beam"
+    }
+
+    fn forms(&self) -> &'static [Form] {
+        FORMS
+    }
+
+    fn properties(&self) -> &'static [&'static str] {
+        &["tw", "hw", "b", "tf", "h", "b1", "h1", "b2", "h2", "t", "A", "Ix", "Iy", "Wx", "Wy", "width", "height"]
+    }
+
+    fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
+        let shape = Shape::of(graph, given);
+        Some(match name {
+            "tw" | "b1" => shape.tw,
+            "hw" | "h1" => shape.hw,
+            "b" | "b2" => shape.b,
+            "t" => shape.t,
+            "tf" => graph.scale(0.5, shape.t),
+            "h" | "h2" | "height" => shape.h,
+            // An H whose web is wider than its flanges is allowed: the wider one counts.
+            "width" => graph.binary(Binary::Max, shape.tw, shape.b),
+            "A" => {
+                let parts = self.parts(graph, given);
+                graph.sum(&parts)
+            }
+            "Ix" => shape.ix(graph),
+            "Iy" => shape.iy(graph),
+            "Wx" => {
+                let ix = shape.ix(graph);
+                let double = graph.scale(2.0, ix);
+                graph.divide(double, shape.h)
+            }
+            "Wy" => {
+                let iy = shape.iy(graph);
+                let (double, width) = (graph.scale(2.0, iy), graph.binary(Binary::Max, shape.tw, shape.b));
+                graph.divide(double, width)
+            }
+            _ => return None,
+        })
+    }
+
+    fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
+        let shape = Shape::of(graph, given);
+        vec![graph.multiply(shape.tw, shape.hw), graph.multiply(shape.b, shape.t)]
+    }
+
+    fn positive(&self) -> &'static [&'static str] {
+        &["hw", "tf"]
+    }
+
+    fn rings(&self, form: &Form, given: &[f64], _: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+        let mut graph = Graph::new();
+        let nodes: Vec<NodeId> = given.iter().map(|&value| graph.constant(value)).collect();
+        let Some(form) = FORMS.iter().find(|known| *known == form) else { return Vec::new() };
+        let given = Given { form, dimensions: &nodes, outline: &[] };
+        let mut half = |name| {
+            let node = self.property(&mut graph, &given, name)?;
+            graph.as_constant(node).map(|value| value / 2.0)
+        };
+        let (Some(w), Some(y), Some(x), Some(top)) = (half("tw"), half("hw"), half("b"), half("h")) else { return Vec::new() };
+        vec![vec![
+            [-x, -top],
+            [x, -top],
+            [x, -y],
+            [w, -y],
+            [w, y],
+            [x, y],
+            [x, top],
+            [-x, top],
+            [-x, y],
+            [-w, y],
+            [-w, -y],
+            [-x, -y],
+        ]]
+    }
+}

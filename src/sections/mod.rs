@@ -1,0 +1,90 @@
+//! Cross-sections: their dimensions, and area, moments and moduli as expression graphs (so that every derivative is exact).
+//!
+//! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]; nothing else changes.
+//! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
+
+mod h_beam;
+mod rectangle;
+
+use crate::expression::graph::{Graph, NodeId};
+
+/// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it has an outline.
+pub struct Given<'a> {
+    /// The form the dimensions are given in.
+    pub form: &'static Form,
+    /// One node per dimension of the form.
+    pub dimensions: &'a [NodeId],
+    /// Points, for kinds drawn by points.
+    pub outline: &'a [[f64; 2]],
+}
+
+/// One way to give a kind's dimensions: which ones, by which names.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Form {
+    /// The kind's name in files.
+    pub kind: &'static str,
+    /// Names of the given dimensions, in order.
+    pub dimensions: &'static [&'static str],
+}
+
+/// A kind of cross-section.
+pub trait Kind: Sync {
+    /// Its name in files: `h-beam`.
+    fn name(&self) -> &'static str;
+
+    /// The ways to give its dimensions. A file's section must match exactly one.
+    fn forms(&self) -> &'static [Form];
+
+    /// Every name it offers in expressions: dimensions given or derived, aliases, properties.
+    fn properties(&self) -> &'static [&'static str];
+
+    /// The node of a property or dimension; `None` for a name it does not offer.
+    fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId>;
+
+    /// The areas of the parts whose frusta make up a rib's volume: the whole area, or web and flanges.
+    fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId>;
+
+    /// Dimensions (by property name) that must stay positive for the section to exist, besides the given ones: `tf` of an H beam.
+    fn positive(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// The boundary at numeric dimensions: the outer ring counter-clockwise, holes clockwise; curves to `tolerance`.
+    /// `given` are numbers in the form's order.
+    fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>>;
+}
+
+/// All kinds.
+pub static KINDS: &[&dyn Kind] = &[&rectangle::Rectangle, &h_beam::HBeam];
+
+/// Every form of every kind, in the order [`form`] counts them.
+pub fn forms() -> impl Iterator<Item = (&'static dyn Kind, &'static Form)> {
+    KINDS.iter().flat_map(|&kind| kind.forms().iter().map(move |form| (kind, form)))
+}
+
+/// The form with this number.
+///
+/// # Panics
+/// On a number no form has; numbers come from [`form_number`].
+pub fn form(number: u16) -> &'static Form {
+    lookup(number).1
+}
+
+/// The kind of the form with this number.
+pub fn kind_of(number: u16) -> &'static dyn Kind {
+    lookup(number).0
+}
+
+/// The kind of this name.
+pub fn kind(name: &str) -> Option<&'static dyn Kind> {
+    KINDS.iter().copied().find(|kind| kind.name() == name)
+}
+
+/// The number of a form.
+pub fn form_number(form: &Form) -> Option<u16> {
+    forms().position(|(_, candidate)| candidate == form).and_then(|at| u16::try_from(at).ok())
+}
+
+fn lookup(number: u16) -> (&'static dyn Kind, &'static Form) {
+    forms().nth(number.into()).expect("form numbers come from form_number")
+}
