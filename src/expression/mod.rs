@@ -5,6 +5,7 @@
 
 pub mod ast;
 pub mod graph;
+pub mod kernel;
 pub mod operators;
 
 /// A range of bytes in the text of one expression.
