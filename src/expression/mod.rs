@@ -9,6 +9,7 @@ pub mod kernel;
 mod lexer;
 pub mod operators;
 pub mod parse;
+pub mod tape;
 
 /// A range of bytes in the text of one expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
