@@ -3,11 +3,18 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+mod assemble;
+mod assembled;
+pub mod bounds_only;
+pub mod derivative_check;
+mod elements;
 pub mod evaluator;
 pub mod pattern;
 
 use thiserror::Error;
 
+pub use assemble::{AssemblyError, assemble};
+pub use assembled::{RibModel, RowOrigin};
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
 
