@@ -4,7 +4,10 @@
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
 pub mod evaluator;
+#[cfg(test)]
+pub mod handmade;
 pub mod pattern;
+pub mod scaled;
 
 use thiserror::Error;
 
