@@ -9,7 +9,10 @@ pub mod bounds_only;
 pub mod derivative_check;
 mod elements;
 pub mod evaluator;
+#[cfg(test)]
+pub mod handmade;
 pub mod pattern;
+pub mod scaled;
 
 use thiserror::Error;
 
