@@ -1,5 +1,7 @@
 //! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
 
+mod reformulated;
+pub use reformulated::solve_reformulated;
 #[cfg(feature = "nlopt")]
 pub mod nlopt;
 

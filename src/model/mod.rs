@@ -7,11 +7,13 @@ mod assemble;
 mod assembled;
 pub mod bounds_only;
 pub mod derivative_check;
+pub mod differences;
 mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
 pub mod pattern;
+pub mod reformulation;
 pub mod scaled;
 
 use thiserror::Error;
