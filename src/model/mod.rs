@@ -12,6 +12,7 @@ mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
+pub mod logarithmic;
 pub mod pattern;
 pub mod reformulation;
 pub mod scaled;
