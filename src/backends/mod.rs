@@ -1,5 +1,7 @@
 //! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
 
+pub mod argmin;
+
 use crate::model::{Budget, Model};
 
 /// One solver family.
