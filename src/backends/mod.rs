@@ -1,9 +1,11 @@
 //! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
 
-mod reformulated;
-pub use reformulated::solve_reformulated;
+pub mod argmin;
 #[cfg(feature = "nlopt")]
 pub mod nlopt;
+mod reformulated;
+
+pub use reformulated::solve_reformulated;
 
 use crate::model::{Budget, Model};
 
