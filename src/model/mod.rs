@@ -6,6 +6,8 @@
 pub mod class;
 pub mod evaluator;
 pub mod pattern;
+#[cfg(test)]
+pub(crate) mod sample;
 pub mod substitution;
 
 use thiserror::Error;
