@@ -3,9 +3,6 @@
 pub mod argmin;
 #[cfg(feature = "nlopt")]
 pub mod nlopt;
-mod reformulated;
-
-pub use reformulated::solve_reformulated;
 
 use crate::model::{Budget, Model};
 

@@ -2,8 +2,7 @@
 //!
 //! h ≤ hw is outside the model's domain, and no solver respects a domain; it does respect the bound t > 0.
 
-use super::reformulation::Reformulation;
-use super::{EvaluationError, Meta, Model, Pattern};
+use super::{EvaluationError, Meta, Model, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
 use crate::sections;
 
@@ -143,8 +142,12 @@ fn connect_hessian(user: &Meta, partner: &[Option<u32>], meta: &mut Meta) -> Vec
         .collect()
 }
 
-impl Reformulation for Differences<'_> {
-    fn to_user(&self, z: &[f64]) -> Vec<f64> {
+impl Substitution for Differences<'_> {
+    fn model(&self) -> &dyn Model {
+        self
+    }
+
+    fn outward(&self, z: &[f64]) -> Vec<f64> {
         let mut x = z.to_vec();
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
@@ -155,7 +158,7 @@ impl Reformulation for Differences<'_> {
         x
     }
 
-    fn from_user(&self, x: &[f64]) -> Vec<f64> {
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
         let mut z = x.to_vec();
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
@@ -283,9 +286,9 @@ mod tests {
         let model = model();
         let differences = Differences::new(&model, &[(0, 1)]);
         let x = [0.7, 0.5, 0.3];
-        let z = differences.from_user(&x);
+        let z = differences.inward(&x);
         assert!(z.iter().zip([0.2, 0.5, 0.3]).all(|(z, expected): (&f64, f64)| (z - expected).abs() < 1e-15));
-        assert!(differences.to_user(&z).iter().zip(x).all(|(there, x)| (there - x).abs() < 1e-15));
+        assert!(differences.outward(&z).iter().zip(x).all(|(there, x)| (there - x).abs() < 1e-15));
         assert_eq!((differences.meta().rows(), differences.meta().row_lower[2], differences.meta().row_upper[2]), (3, 0.1, 1.0));
         assert!(differences.meta().lower[0] > 0.0);
     }

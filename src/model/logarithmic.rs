@@ -1,7 +1,6 @@
 //! A model in the logarithms of its variables, y = ln x: posynomials become convex, monomial rows affine.
 
-use super::reformulation::Reformulation;
-use super::{EvaluationError, Meta, Model, Pattern};
+use super::{EvaluationError, Meta, Model, Pattern, Substitution};
 
 /// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
 pub struct Logarithmic<'a> {
@@ -103,8 +102,12 @@ fn with_diagonal(pattern: &Pattern) -> (Pattern, Vec<u32>, Vec<u32>) {
     (full, slots, diagonal)
 }
 
-impl Reformulation for Logarithmic<'_> {
-    fn to_user(&self, y: &[f64]) -> Vec<f64> {
+impl Substitution for Logarithmic<'_> {
+    fn model(&self) -> &dyn Model {
+        self
+    }
+
+    fn outward(&self, y: &[f64]) -> Vec<f64> {
         let user = self.model.meta();
         let inside = |(j, x): (usize, f64)| match y[j] {
             // A bound reached in logarithms is that very bound.
@@ -115,7 +118,7 @@ impl Reformulation for Logarithmic<'_> {
         self.x(y).into_iter().enumerate().map(inside).collect()
     }
 
-    fn from_user(&self, x: &[f64]) -> Vec<f64> {
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
         let upper = &self.model.meta().upper;
         x.iter().zip(upper).map(|(&x, &upper)| positive(x, upper).ln()).collect()
     }
@@ -231,7 +234,7 @@ mod tests {
         log.constraints(&[0.0, 0.0, 0.0], &mut values).unwrap();
         assert!((values[0] - (1.0f64 / 12.0).ln()).abs() < 1e-14);
         assert_eq!(log.meta().row_lower[0], 1e-3f64.ln());
-        assert_eq!(log.to_user(&log.meta().lower), [0.1, 0.1, 0.0]);
+        assert_eq!(log.outward(&log.meta().lower), [0.1, 0.1, 0.0]);
     }
 
     #[test]
