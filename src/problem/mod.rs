@@ -3,6 +3,7 @@
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
 pub mod formula;
+pub mod kinks;
 pub mod settings;
 
 use std::collections::HashMap;
