@@ -3,6 +3,7 @@
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
 pub mod formula;
+pub(crate) mod nearest;
 pub mod settings;
 
 use std::collections::HashMap;
@@ -152,6 +153,21 @@ pub enum VolumeLaw {
     Frustum,
     /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
     Prismatoid,
+}
+
+impl VolumeLaw {
+    /// The law's name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            VolumeLaw::Frustum => "frustum",
+            VolumeLaw::Prismatoid => "prismatoid",
+        }
+    }
+
+    /// The law of this name.
+    pub fn named(name: &str) -> Option<VolumeLaw> {
+        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().find(|law| law.name() == name)
+    }
 }
 
 /// One data column of sections or ribs.
