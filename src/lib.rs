@@ -20,6 +20,7 @@
 
 pub mod backends;
 pub mod expression;
+pub mod input;
 pub mod linear_algebra;
 pub mod model;
 pub mod problem;

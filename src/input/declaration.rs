@@ -36,11 +36,16 @@ pub(super) enum Numbers {
 }
 
 /// Bounds and start.
-#[derive(Default)]
 pub(super) struct Range<T> {
     pub lower: Option<T>,
     pub upper: Option<T>,
     pub start: Option<T>,
+}
+
+impl<T> Default for Range<T> {
+    fn default() -> Self {
+        Range { lower: None, upper: None, start: None }
+    }
 }
 
 /// An entry of `[variables]`.

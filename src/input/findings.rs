@@ -57,16 +57,16 @@ impl Findings {
 
     /// The mistakes with their lines, in the order in which they stand.
     pub fn into_parts(self, source: &Source, arguments: &[String]) -> (Mistakes, Vec<Mistake>) {
-        let found = self.mistakes.len() + self.uncounted;
-        let list = self.placed(self.mistakes.iter().collect(), source, arguments);
-        let more = found.saturating_sub(list.len().max(SHOWN.min(found)));
-        let warnings = self.placed(self.warnings.iter().collect(), source, arguments);
-        (Mistakes { list, more }, warnings)
+        let (list, cut) = self.placed(self.mistakes.iter().collect(), source, arguments);
+        let (warnings, _) = self.placed(self.warnings.iter().collect(), source, arguments);
+        (Mistakes { list, more: cut + self.uncounted }, warnings)
     }
 
-    fn placed(&self, mut findings: Vec<&Finding>, source: &Source, arguments: &[String]) -> Vec<Mistake> {
+    /// The first of the findings in the file's order, each once, and how many are left out.
+    fn placed(&self, mut findings: Vec<&Finding>, source: &Source, arguments: &[String]) -> (Vec<Mistake>, usize) {
         findings.sort_by_key(|finding| finding.place);
         findings.dedup_by(|a, b| a.place == b.place && a.message == b.message);
+        let cut = findings.len().saturating_sub(SHOWN);
         findings.truncate(SHOWN);
         let wanted = |number: usize| {
             let of_table = move |finding: &&Finding| match finding.place {
@@ -77,7 +77,7 @@ impl Findings {
         };
         let rows: Vec<_> =
             self.tables.iter().enumerate().map(|(number, (path, _))| table_lines::read(path, &wanted(number))).collect();
-        findings.iter().map(|finding| self.place(finding, source, arguments, &rows)).collect()
+        (findings.iter().map(|finding| self.place(finding, source, arguments, &rows)).collect(), cut)
     }
 
     fn place(&self, finding: &Finding, source: &Source, arguments: &[String], rows: &[table_lines::Lines]) -> Mistake {
@@ -95,15 +95,9 @@ impl Findings {
                 let file = self.tables.get(table as usize).map(|(_, name)| name.clone()).unwrap_or_default();
                 Mistake { file, line: line as usize, column: caret.start + 1, text, caret, message, help }
             }
-            Place::Whole => Mistake {
-                file: source.name.clone(),
-                line: 0,
-                column: 0,
-                text: String::new(),
-                caret: 0..0,
-                message,
-                help,
-            },
+            Place::Whole => {
+                Mistake { file: source.name.clone(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help }
+            }
         }
     }
 }

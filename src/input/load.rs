@@ -50,8 +50,7 @@ fn unreadable(name: &str, error: &io::Error) -> Mistakes {
 
 fn refuse(name: &str, message: String, help: &str) -> Mistakes {
     let help = Some(help.to_owned());
-    let mistake =
-        Mistake { file: name.to_owned(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help };
+    let mistake = Mistake { file: name.to_owned(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help };
     Mistakes { list: vec![mistake], more: 0 }
 }
 

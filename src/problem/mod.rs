@@ -2,14 +2,23 @@
 //!
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
+pub mod cells;
+mod collections;
+pub mod evaluate;
 pub mod formula;
+pub mod mentions;
+pub mod names;
 pub(crate) mod nearest;
+pub mod order;
+pub mod pattern;
+pub mod resolve;
 pub mod settings;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::sections;
+pub use collections::sections_form;
 pub use formula::{Formula, Property};
 pub use settings::Settings;
 

@@ -21,7 +21,7 @@ fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {
     if let DeValue::Table(_) = field.value
         && let Some(mut fields) = field.table(reader)
     {
-        let own = range(&mut fields, Field::scalar, reader);
+        let own = range(&mut fields, |field, reader| field.scalar(reader), reader);
         fields.finish(reader);
         return DimensionEntry::Own(own);
     }
@@ -75,7 +75,13 @@ fn ends(fields: &mut Fields, what: &str, reader: &mut Reader) -> (Option<Written
             (None, None)
         }
         (None, from, to) => {
-            let lacking = if from.is_some() { "`to`" } else if to.is_some() { "`from`" } else { "its sections" };
+            let lacking = if from.is_some() {
+                "`to`"
+            } else if to.is_some() {
+                "`from`"
+            } else {
+                "its sections"
+            };
             let help = "give `from` and `to`, or `section` for the same one at both ends";
             reader.findings.mistake(place, format!("{what} lacks {lacking}"), help);
             (None, None)
