@@ -4,8 +4,10 @@
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
 pub mod class;
+pub mod elastic;
 pub mod evaluator;
 pub mod pattern;
+pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod substitution;
@@ -13,8 +15,10 @@ pub mod substitution;
 use thiserror::Error;
 
 pub use class::Class;
+pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
+pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.
