@@ -25,4 +25,5 @@ pub mod expression;
 pub mod linear_algebra;
 pub mod model;
 pub mod problem;
+pub mod ribs;
 pub mod sections;

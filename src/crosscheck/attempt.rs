@@ -59,7 +59,9 @@ impl<'a> Referee<'a> {
             observer(&Iteration { objective, x: &self.outward(iteration.x), ..*iteration });
         };
         let start = other.inward(start);
-        let mut solution = self.solve(contestant, other.model(), &start, multipliers, budget, Some(&stop), &mut translated);
+        // Multipliers known are those of the user's rows: no guess for rows in other variables.
+        let mut solution = self.solve(contestant, other.model(), &start, None, budget, Some(&stop), &mut translated);
+        solution.multipliers = None;
         solution.x = self.outward(&solution.x);
         self.judged(contestant, solution)
     }

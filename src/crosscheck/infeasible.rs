@@ -124,6 +124,9 @@ impl<'a> Work<'a> {
         let relaxations = self.violations(x);
         let (rows, last, complete) = self.filter(best);
         let bounds = self.bounds(last.as_ref().unwrap_or(best));
+        // Rows beyond the user's own belong to the substitution.
+        let own = self.referee.task.model.meta().rows();
+        let rows = rows.into_iter().filter(|&row| row < own).collect();
         let minimal = complete && bounds.is_empty() && self.referee.task.class.is_global();
         Conflict { violated_rows: relaxations.clone(), rows, bounds, relaxations, minimal }
     }

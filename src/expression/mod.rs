@@ -5,7 +5,12 @@
 
 pub mod ast;
 pub mod graph;
+pub mod kernel;
+mod lexer;
 pub mod operators;
+pub mod parse;
+pub mod tape;
+pub mod terms;
 
 /// A range of bytes in the text of one expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
