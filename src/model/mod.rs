@@ -7,20 +7,28 @@ mod assemble;
 mod assembled;
 pub mod augmented;
 pub mod bounds_only;
+pub mod class;
 pub mod derivative_check;
+pub mod differences;
 mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
+pub mod logarithmic;
 pub mod pattern;
+#[cfg(test)]
+pub(crate) mod sample;
 pub mod scaled;
+pub mod substitution;
 
 use thiserror::Error;
 
 pub use assemble::{AssemblyError, assemble};
 pub use assembled::{RibModel, RowOrigin};
+pub use class::Class;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
+pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.
 #[derive(Debug, Clone, Default)]
