@@ -19,6 +19,8 @@
 #![warn(missing_docs)]
 
 pub mod backends;
+pub mod certificate;
+pub mod crosscheck;
 pub mod expression;
 pub mod linear_algebra;
 pub mod model;

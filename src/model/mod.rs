@@ -3,13 +3,17 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+pub mod class;
 pub mod evaluator;
 pub mod pattern;
+pub mod substitution;
 
 use thiserror::Error;
 
+pub use class::Class;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
+pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.
 #[derive(Debug, Clone, Default)]
