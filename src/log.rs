@@ -89,7 +89,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("log-argmin.csv");
         let mut log = IterationLog::create(&path, x.len(), |j| format!("x[{}], in m", j + 1)).unwrap();
-        let row = Iteration { iteration: 3, evaluations: 7, objective, feasibility: 0.1, optimality: f64::NAN, step_norm: 0.2, x };
+        let row =
+            Iteration { iteration: 3, evaluations: 7, objective, feasibility: 0.1, optimality: f64::NAN, step_norm: 0.2, x };
         log.add(&row, -1.0);
         assert!(log.failure().is_none());
         let mut reader = csv::Reader::from_path(&path).unwrap();

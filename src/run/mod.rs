@@ -1,0 +1,3 @@
+//! One run, start to finish.
+
+pub mod folder;
