@@ -47,14 +47,14 @@ impl IterationLog {
         self.begun = Instant::now();
     }
 
-    /// Adds a row. `sign` turns the objective into the user's sense (−1 when maximising).
-    pub fn add(&mut self, iteration: &Iteration<'_>, sign: f64) {
+    /// Adds a row.
+    pub fn add(&mut self, iteration: &Iteration<'_>) {
         if self.failure.is_some() {
             return;
         }
         let mut row = vec![iteration.iteration.to_string(), iteration.evaluations.to_string()];
         let seconds = self.begun.elapsed().as_secs_f64();
-        let numbers = [sign * iteration.objective, iteration.feasibility, iteration.optimality, iteration.step_norm, seconds];
+        let numbers = [iteration.objective, iteration.feasibility, iteration.optimality, iteration.step_norm, seconds];
         row.extend(numbers.map(exact));
         if self.with_variables {
             row.extend(iteration.x.iter().copied().map(exact));
@@ -91,7 +91,7 @@ mod tests {
         let mut log = IterationLog::create(&path, x.len(), |j| format!("x[{}], in m", j + 1)).unwrap();
         let row =
             Iteration { iteration: 3, evaluations: 7, objective, feasibility: 0.1, optimality: f64::NAN, step_norm: 0.2, x };
-        log.add(&row, -1.0);
+        log.add(&row);
         assert!(log.failure().is_none());
         let mut reader = csv::Reader::from_path(&path).unwrap();
         let header = reader.headers().unwrap().iter().map(String::from).collect();
@@ -103,7 +103,7 @@ mod tests {
         fn rows_read_back_bit_for_bit(x in prop::collection::vec(proptest::num::f64::NORMAL, 1..5), f in proptest::num::f64::NORMAL) {
             let (header, rows) = logged(&x, f);
             prop_assert_eq!(header.len(), COLUMNS.len() + x.len());
-            prop_assert_eq!(rows[0][2].parse::<f64>().unwrap().to_bits(), (-f).to_bits());
+            prop_assert_eq!(rows[0][2].parse::<f64>().unwrap().to_bits(), f.to_bits());
             for (j, value) in x.iter().enumerate() {
                 prop_assert_eq!(rows[0][COLUMNS.len() + j].parse::<f64>().unwrap().to_bits(), value.to_bits());
             }

@@ -2,6 +2,8 @@
 //!
 //! Reports judge nothing. They turn what the certificate and the cross-check found into the user's sense and words.
 
+pub mod answer;
+pub mod comparison;
 pub mod governing;
 pub mod number;
 pub mod profile;

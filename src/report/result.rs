@@ -26,8 +26,17 @@ pub struct Mistake {
     pub line: Option<usize>,
     /// Column, counted from 1 in characters.
     pub column: Option<usize>,
-    /// What is wrong, what was expected and what to do.
+    /// What is wrong.
     pub message: String,
+    /// What was expected, the nearest known name, the remedy.
+    pub help: Option<String>,
+}
+
+impl Mistake {
+    /// A mistake that is in no file.
+    pub fn of_command(message: String) -> Mistake {
+        Mistake { file: None, line: None, column: None, message, help: None }
+    }
 }
 
 /// Writes the result.
