@@ -27,5 +27,6 @@ pub mod log;
 pub mod model;
 pub mod problem;
 pub mod report;
+pub mod ribs;
 pub mod run;
 pub mod sections;

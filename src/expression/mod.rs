@@ -5,7 +5,10 @@
 
 pub mod ast;
 pub mod graph;
+pub mod kernel;
+mod lexer;
 pub mod operators;
+pub mod parse;
 
 /// A range of bytes in the text of one expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
