@@ -47,7 +47,8 @@ impl Failure {
     fn parts(&self) -> (String, Vec<Mistake>) {
         match self {
             Failure::Run(error) => {
-                let message = if matches!(error, RunError::Input(..)) { "the problem file is wrong".into() } else { error.to_string() };
+                let message =
+                    if matches!(error, RunError::Input(..)) { "the problem file is wrong".into() } else { error.to_string() };
                 (message, error.mistakes())
             }
             other => {

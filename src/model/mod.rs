@@ -5,7 +5,10 @@
 
 pub mod class;
 pub mod evaluator;
+#[cfg(test)]
+pub mod handmade;
 pub mod pattern;
+pub mod scaled;
 pub mod substitution;
 
 use thiserror::Error;

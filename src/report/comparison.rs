@@ -106,17 +106,15 @@ pub fn profiles(trials: &[Trial]) -> [Profile; 2] {
     let profile = |measure: &str, cost: fn(&Trial) -> f64, smallest: f64| {
         let mut costs = vec![vec![None; files.len()]; solvers.len()];
         for trial in trials.iter().filter(|trial| trial.solved) {
-            let place = (solvers.iter().position(|name| *name == trial.solver), files.iter().position(|name| *name == trial.file));
+            let place =
+                (solvers.iter().position(|name| *name == trial.solver), files.iter().position(|name| *name == trial.file));
             if let (Some(solver), Some(file)) = place {
                 costs[solver][file] = Some(cost(trial));
             }
         }
         Profile::new(measure, &solvers, &costs, smallest)
     };
-    [
-        profile("evaluations", |trial| trial.evaluations as f64, 1.0),
-        profile("seconds", |trial| trial.seconds, SHORTEST),
-    ]
+    [profile("evaluations", |trial| trial.evaluations as f64, 1.0), profile("seconds", |trial| trial.seconds, SHORTEST)]
 }
 
 #[cfg(test)]

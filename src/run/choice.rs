@@ -16,7 +16,10 @@ pub struct Choice {
 
 /// All backends that are built in, in the order they run.
 pub fn built_in() -> &'static [&'static dyn Backend] {
-    crate::backends::BUILT_IN
+    &[
+        #[cfg(feature = "nlopt")]
+        &crate::backends::nlopt::Nlopt,
+    ]
 }
 
 /// The backends of the command line, else of the file, else all, with their algorithms.
@@ -55,8 +58,7 @@ pub fn choose(names: &[String], algorithm: Option<&str>, settings: &Settings) ->
 /// # Errors
 /// With each one's reason.
 pub fn refuse_if_none_accepts(choices: &[Choice], model: &dyn Model) -> Result<(), RunError> {
-    let refusals: Vec<Option<String>> =
-        choices.iter().map(|choice| choice.backend.refusal(&choice.algorithm, model)).collect();
+    let refusals: Vec<Option<String>> = choices.iter().map(|choice| choice.backend.refusal(&choice.algorithm, model)).collect();
     if refusals.iter().any(Option::is_none) {
         return Ok(());
     }
@@ -66,9 +68,9 @@ pub fn refuse_if_none_accepts(choices: &[Choice], model: &dyn Model) -> Result<(
 
 /// Every backend with every algorithm.
 pub fn all() -> Vec<Choice> {
-    let choices = built_in().iter().flat_map(|&backend| {
-        backend.algorithms().iter().map(move |&algorithm| Choice { backend, algorithm: algorithm.into() })
-    });
+    let choices = built_in()
+        .iter()
+        .flat_map(|&backend| backend.algorithms().iter().map(move |&algorithm| Choice { backend, algorithm: algorithm.into() }));
     choices.collect()
 }
 
