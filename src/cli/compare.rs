@@ -1,7 +1,7 @@
 //! `ribopt compare`
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use super::arguments::Compare;

@@ -1,7 +1,5 @@
 //! `ribopt solve`
 
-use std::io::Write;
-
 use super::arguments::Solve;
 use super::failure::Failure;
 use super::{interrupt, live_table, output};

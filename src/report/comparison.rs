@@ -86,7 +86,7 @@ pub fn write_csv(trials: &[Trial], out: impl Write) -> io::Result<()> {
         let objective = objective.map_or(String::new(), exact);
         let iterations = iterations.map_or(String::new(), |iterations| iterations.to_string());
         let (solved, evaluations, seconds) = (solved.to_string(), evaluations.to_string(), exact(*seconds));
-        table.write_record([file, solver, status, &solved, &objective, &iterations, &evaluations, &seconds, message])?;
+        table.write_record([file.as_str(), solver, status, &solved, &objective, &iterations, &evaluations, &seconds, message])?;
     }
     table.flush()
 }

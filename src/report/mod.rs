@@ -150,3 +150,6 @@ pub fn sign(sense: Sense) -> f64 {
         Sense::Maximize => -1.0,
     }
 }
+
+#[cfg(test)]
+mod tests;
