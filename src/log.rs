@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::backends::Iteration;
-use crate::report::number::exact;
 
 /// Up to this many variables, each has a column of its own.
 pub const MOST_VARIABLE_COLUMNS: usize = 50;
@@ -67,6 +66,16 @@ impl IterationLog {
         let cause = self.failure.as_ref()?;
         Some(format!("{} ends early: {cause}; the answer is not affected", self.path.display()))
     }
+}
+
+/// The shortest text that reads back as the same `f64`, bit for bit; empty for NaN, `inf` and `-inf` for infinities.
+///
+/// ```
+/// assert_eq!(ribopt::log::exact(0.1), "0.1");
+/// assert_eq!(ribopt::log::exact(1e300), "1e300");
+/// ```
+pub fn exact(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
 }
 
 fn write_row(file: &mut File, cells: &[String]) -> io::Result<()> {

@@ -31,10 +31,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
         trials.extend(of_file);
     }
     if arguments.json {
-        output::print(|out| {
-            serde_json::to_writer_pretty(&mut *out, &trials)?;
-            writeln!(out)
-        })?;
+        output::print(|out| comparison::write_json(&trials, out))?;
     }
     if let Some(folder) = &arguments.profile {
         leave_profiles(&trials, folder).map_err(|error| {

@@ -9,6 +9,8 @@ pub mod kernel;
 mod lexer;
 pub mod operators;
 pub mod parse;
+pub mod tape;
+pub mod terms;
 
 /// A range of bytes in the text of one expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

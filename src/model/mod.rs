@@ -4,6 +4,11 @@
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
 pub mod class;
+mod assemble;
+mod assembled;
+pub mod bounds_only;
+pub mod derivative_check;
+mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
@@ -14,6 +19,8 @@ pub mod substitution;
 use thiserror::Error;
 
 pub use class::Class;
+pub use assemble::{AssemblyError, assemble};
+pub use assembled::{RibModel, RowOrigin};
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
 pub use substitution::Substitution;

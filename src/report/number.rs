@@ -1,14 +1,6 @@
 //! Numbers as text: exact ones for files, short ones for people.
 
-/// The shortest text that reads back as the same `f64`, bit for bit; empty for NaN, `inf` and `-inf` for infinities.
-///
-/// ```
-/// assert_eq!(ribopt::report::number::exact(0.1), "0.1");
-/// assert_eq!(ribopt::report::number::exact(1e300), "1e300");
-/// ```
-pub fn exact(value: f64) -> String {
-    if value.is_nan() { String::new() } else { format!("{value:?}") }
-}
+pub use crate::log::exact;
 
 /// As [`exact`], with open bounds left empty.
 pub fn exact_or_open(value: f64) -> String {

@@ -2,6 +2,7 @@
 
 use super::law::Law;
 use crate::expression::kernel::Kernel;
+use crate::expression::tape::Workspace;
 
 /// The kernel of one part between two ends.
 ///
@@ -12,11 +13,12 @@ use crate::expression::kernel::Kernel;
 ///
 /// ```
 /// use ribopt::expression::kernel::Kernel;
+/// use ribopt::expression::tape::Workspace;
 /// use ribopt::ribs::{law::Law, Part};
 ///
 /// let frustum = Part::new(Law::Frustum, false);
 /// let mut gradient = [0.0; 4];
-/// let volume = frustum.gradient(&[2.0, 3.0, 2.0, 3.0], &[], &mut [], &mut gradient);
+/// let volume = frustum.gradient(&[2.0, 3.0, 2.0, 3.0], &[], &mut Workspace::default(), &mut gradient);
 /// assert_eq!(volume, 6.0);
 /// assert_eq!(gradient, [1.5, 1.0, 1.5, 1.0]);
 /// ```
@@ -132,11 +134,11 @@ impl Kernel for Part {
         }
     }
 
-    fn value(&self, x: &[f64], data: &[f64], _: &mut [f64]) -> f64 {
+    fn value(&self, x: &[f64], data: &[f64], _: &mut Workspace) -> f64 {
         self.volume(self.lengths(x, data))
     }
 
-    fn gradient(&self, x: &[f64], data: &[f64], _: &mut [f64], gradient: &mut [f64]) -> f64 {
+    fn gradient(&self, x: &[f64], data: &[f64], _: &mut Workspace, gradient: &mut [f64]) -> f64 {
         let (value, by_length) = self.volume_gradient(self.lengths(x, data));
         if self.difference {
             let factors = Part::factors(data);
@@ -149,7 +151,7 @@ impl Kernel for Part {
         value
     }
 
-    fn hessian(&self, x: &[f64], data: &[f64], _: &mut [f64], hessian: &mut [f64]) {
+    fn hessian(&self, x: &[f64], data: &[f64], _: &mut Workspace, hessian: &mut [f64]) {
         let full = match self.law {
             Law::Frustum => Part::frustum_hessian(self.lengths(x, data)),
             // In the order of FOUR: w1·h1 and w2·h2 weigh 2, the crossed products 1.
@@ -180,7 +182,7 @@ impl Kernel for Part {
             }
         }
         let mut gradient = [0.0; 6];
-        let value = self.gradient(x, data, &mut [], &mut gradient[..self.inputs()]);
+        let value = self.gradient(x, data, &mut Workspace::default(), &mut gradient[..self.inputs()]);
         (!value.is_finite() || gradient.iter().any(|d| !d.is_finite())).then(|| "the volume overflows".to_string())
     }
 }
@@ -213,13 +215,13 @@ mod tests {
                 let x = &point[..kernel.inputs()];
                 let (data, n) = ([1.0], kernel.inputs());
                 let mut gradient = vec![0.0; n];
-                kernel.gradient(x, &data, &mut [], &mut gradient);
+                kernel.gradient(x, &data, &mut Workspace::default(), &mut gradient);
                 for at in 0..n {
-                    let expected = difference(x, at, |x| kernel.value(x, &data, &mut []));
+                    let expected = difference(x, at, |x| kernel.value(x, &data, &mut Workspace::default()));
                     assert!((gradient[at] - expected).abs() < 1e-7 * (1.0 + expected.abs()), "{at}: {} {expected}", gradient[at]);
                 }
                 let mut values = vec![0.0; kernel.hessian_pattern().len()];
-                kernel.hessian(x, &data, &mut [], &mut values);
+                kernel.hessian(x, &data, &mut Workspace::default(), &mut values);
                 let mut full = vec![vec![0.0; n]; n];
                 for (&(i, j), &value) in kernel.hessian_pattern().iter().zip(&values) {
                     full[i as usize][j as usize] = value;
@@ -229,7 +231,7 @@ mod tests {
                     for (j, &entry) in row.iter().enumerate() {
                         let expected = difference(x, j, |x| {
                             let mut gradient = vec![0.0; n];
-                            kernel.gradient(x, &data, &mut [], &mut gradient);
+                            kernel.gradient(x, &data, &mut Workspace::default(), &mut gradient);
                             gradient[i]
                         });
                         assert!((entry - expected).abs() < 1e-6 * (1.0 + expected.abs()), "({i},{j}): {entry} {expected}");
@@ -243,12 +245,12 @@ mod tests {
     fn euler_s_identity_holds_and_the_note_s_printed_gradient_breaks_it() {
         let x = [0.3, 0.9, 0.2, 0.7];
         let mut gradient = [0.0; 4];
-        let volume = Part::new(Law::Frustum, false).gradient(&x, &[], &mut [], &mut gradient);
+        let volume = Part::new(Law::Frustum, false).gradient(&x, &[], &mut Workspace::default(), &mut gradient);
         let euler: f64 = x.iter().zip(gradient).map(|(x, d)| x * d).sum();
         assert!((euler - 2.0 * volume).abs() < 1e-15);
         let [b1, h1, b2, h2] = x;
         let printed = h1 / 6.0 + 0.5 * (h1 * b2 * h2 / b1).sqrt();
-        let difference = difference(&x, 0, |x| Part::new(Law::Frustum, false).value(x, &[], &mut []));
+        let difference = difference(&x, 0, |x| Part::new(Law::Frustum, false).value(x, &[], &mut Workspace::default()));
         assert!((printed - difference).abs() > 1e-3, "the misprint would pass: {printed} {difference}");
         assert!((gradient[0] - difference).abs() < 1e-9);
     }
@@ -258,7 +260,7 @@ mod tests {
         let (web, flange) = ([8.0, 180.0, 6.0, 100.0], [100.0, 20.0, 60.0, 30.0]);
         let volume = |law| {
             let part = Part::new(law, false);
-            1000.0 * (part.value(&web, &[], &mut []) + part.value(&flange, &[], &mut []))
+            1000.0 * (part.value(&web, &[], &mut Workspace::default()) + part.value(&flange, &[], &mut Workspace::default()))
         };
         assert!((volume(Law::Prismatoid) - 2_960_000.0).abs() < 1e-6);
         assert!((volume(Law::Frustum) - 2_888_960.87).abs() < 5e-3);
@@ -268,7 +270,7 @@ mod tests {
     fn areas_that_are_not_positive_are_explained() {
         let frustum = Part::new(Law::Frustum, true);
         assert!(frustum.explain(&[1.0, 1.0, 2.0, 1.0, 2.0, 1.0], &[1.0]).unwrap().contains("left end is -1"));
-        assert!(!frustum.value(&[1.0, 1.0, 2.0, 1.0, 1.0, 2.0], &[1.0], &mut []).is_finite());
+        assert!(!frustum.value(&[1.0, 1.0, 2.0, 1.0, 1.0, 2.0], &[1.0], &mut Workspace::default()).is_finite());
         assert_eq!(frustum.explain(&[1.0, 2.0, 1.0, 1.0, 2.0, 1.0], &[1.0]), None);
     }
 }
