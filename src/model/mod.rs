@@ -3,24 +3,26 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
-pub mod class;
 mod assemble;
 mod assembled;
 pub mod bounds_only;
+pub mod class;
 pub mod derivative_check;
 mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
 pub mod pattern;
+#[cfg(test)]
+pub(crate) mod sample;
 pub mod scaled;
 pub mod substitution;
 
 use thiserror::Error;
 
-pub use class::Class;
 pub use assemble::{AssemblyError, assemble};
 pub use assembled::{RibModel, RowOrigin};
+pub use class::Class;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
 pub use substitution::Substitution;
