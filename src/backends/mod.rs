@@ -1,5 +1,6 @@
 //! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
 
+pub mod argmin;
 #[cfg(feature = "nlopt")]
 pub mod nlopt;
 

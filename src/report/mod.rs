@@ -3,6 +3,7 @@
 //! Reports judge nothing. They turn what the certificate and the cross-check found into the user's sense and words.
 
 pub mod answer;
+pub mod bounds;
 pub mod comparison;
 pub mod governing;
 pub mod number;

@@ -19,6 +19,7 @@ pub fn built_in() -> &'static [&'static dyn Backend] {
     &[
         #[cfg(feature = "nlopt")]
         &crate::backends::nlopt::Nlopt,
+        &crate::backends::argmin::Argmin,
     ]
 }
 

@@ -1,5 +1,7 @@
 //! One run, start to finish: read, assemble, solve, certify, compare, leave the files.
 
+pub mod bounds;
+pub mod check;
 pub mod choice;
 pub mod compare;
 pub mod folder;
