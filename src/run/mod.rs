@@ -64,3 +64,6 @@ impl RunError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
