@@ -8,10 +8,12 @@ mod assembled;
 pub mod bounds_only;
 pub mod class;
 pub mod derivative_check;
+pub mod differences;
 mod elements;
 pub mod evaluator;
 #[cfg(test)]
 pub mod handmade;
+pub mod logarithmic;
 pub mod pattern;
 #[cfg(test)]
 pub(crate) mod sample;

@@ -2,7 +2,7 @@
 
 use super::Model;
 
-/// A model in substituted variables z with the way there and back. Rows keep their order and meaning.
+/// A model in substituted variables z with the way there and back. Rows keep their order and meaning; some of its own may follow.
 pub trait Substitution: Sync {
     /// The model in z.
     fn model(&self) -> &dyn Model;
