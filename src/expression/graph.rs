@@ -183,6 +183,21 @@ impl Graph {
         self.intern(Key::Binary(op, left, right), Node::Binary(op, left, right))
     }
 
+    /// The value of a node for these inputs and data.
+    pub fn evaluate(&self, root: NodeId, inputs: &[f64], data: &[f64]) -> f64 {
+        let mut values: Vec<f64> = Vec::with_capacity(root as usize + 1);
+        for node in &self.nodes[..=root as usize] {
+            values.push(match *node {
+                Node::Constant(value) => value,
+                Node::Input(slot) => inputs.get(slot as usize).copied().unwrap_or(f64::NAN),
+                Node::Data(slot) => data.get(slot as usize).copied().unwrap_or(f64::NAN),
+                Node::Unary(op, inner) => op.evaluate(values[inner as usize]),
+                Node::Binary(op, left, right) => op.evaluate(values[left as usize], values[right as usize]),
+            });
+        }
+        values[root as usize]
+    }
+
     fn intern(&mut self, key: Key, node: Node) -> NodeId {
         let nodes = &mut self.nodes;
         *self.known.entry(key).or_insert_with(|| {

@@ -7,6 +7,7 @@ pub mod ast;
 pub mod degree;
 pub mod display;
 pub mod graph;
+pub mod kernel;
 mod lexer;
 pub mod operators;
 pub mod parse;
