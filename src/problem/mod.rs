@@ -12,6 +12,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+mod ratio;
 pub mod resolve;
 pub mod settings;
 
