@@ -9,7 +9,9 @@
 //! | [`barrier`] | the logarithmic barrier |
 //! | [`kkt`] | the Newton system and its inertia |
 //! | [`line_search`], [`filter`] | which steps are taken |
-//! | [`restoration`], [`elastic`] | the way back to feasibility, or the proof that there is none nearby |
+//! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
+//! | [`saddle`] | leaving stationary points that are no minima |
+//! | [`polish`] | the last digits, on the active set |
 
 mod barrier;
 mod elastic;
@@ -19,7 +21,9 @@ mod form;
 mod iterate;
 mod kkt;
 mod line_search;
+mod polish;
 mod restoration;
+mod saddle;
 mod scaling;
 mod start;
 mod vectors;
@@ -116,7 +120,9 @@ impl Engine<'_> {
         let (termination, message, invalid) = match ending {
             Ending::Optimal | Ending::Acceptable => {
                 std::mem::swap(&mut self.iterate, &mut self.best.iterate);
-                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.best.error), None)
+                // A run told to stop keeps the point as it is.
+                let _ = self.polish();
+                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
             }
             Ending::Infeasible => {
                 let violation = self.form.violation(&self.iterate.rows);
