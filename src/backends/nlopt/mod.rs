@@ -96,6 +96,7 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
         Some(algorithm) => plan::named(algorithm, meta),
         None => plan::automatic(meta),
     };
+    let is_auto = job.algorithm == "auto";
     let evaluator = Evaluator::new(model, job.budget);
     let mut watch = Watch::new(job);
     let outcome = driver::drive(&plan, &evaluator, &mut watch);
@@ -106,7 +107,7 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
         None => Solution { message: "NLopt: there was nothing to try".into(), ..blank },
         Some(outcome) => Solution {
             algorithm: outcome.algorithm.into(),
-            termination: termination(&outcome.end, watch.proved().is_some() || watch.is_unbounded()),
+            termination: termination(&outcome.end, watch.proved().is_some() || watch.is_unbounded(), is_auto),
             message: message(&outcome, &watch),
             x,
             evaluations,
@@ -116,10 +117,12 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
     }
 }
 
-fn termination(end: &End, settled: bool) -> Termination {
+fn termination(end: &End, settled: bool, is_auto: bool) -> Termination {
     match end {
         _ if settled => Termination::Converged,
         End::Stopped(Stop::Interrupted) => Termination::Interrupted,
+        // 5: the plan's own limit on evaluations, which the user never set; `auto` has given up.
+        End::Ended { code: 5, .. } if is_auto => Termination::Failed,
         // 5: evaluations, 6: time, −5: the watch counted max_iterations.
         End::Stopped(_) | End::Ended { code: 5 | 6 | -5, .. } => Termination::LimitReached,
         // −4: rounding limits progress, which is where a solution often lies.
