@@ -54,6 +54,11 @@ pub(super) fn is_dependent(point: &Point<'_>, active: &Active<'_>) -> bool {
     }
 }
 
+/// Row by row, the magnitudes D∇²L D/σ is summed from.
+pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result<Vec<f64>, EvaluationError> {
+    Hessian::of(point, multipliers).map(|hessian| hessian.size)
+}
+
 /// The whole test.
 pub(super) fn examine(point: &Point<'_>, active: &Active<'_>) -> Result<Curvature, EvaluationError> {
     let hessian = Hessian::of(point, active.multipliers)?;
