@@ -5,6 +5,7 @@
 
 mod assemble;
 mod assembled;
+pub mod augmented;
 pub mod bounds_only;
 pub mod class;
 pub mod derivative_check;
