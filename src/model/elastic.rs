@@ -196,10 +196,7 @@ mod tests {
         assert_eq!(start.len(), 6);
         let mut values = [0.0; 3];
         elastic.constraints(&start, &mut values).unwrap();
-        assert!(
-            (values[0] - 1.0).abs() < 1e-12 && (values[1] - 9.0).abs() < 1e-12 && (values[2] - 3.0).abs() < 1e-12,
-            "{values:?}"
-        );
+        assert!(values[0] <= 1.0 && (values[1] - 9.0).abs() < 1e-12 && values[2] >= 3.0, "{values:?}");
         let pattern = &elastic.meta().jacobian;
         let mut jacobian = vec![0.0; pattern.len()];
         elastic.jacobian(&start, &mut jacobian).unwrap();
