@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
+use crate::input;
 use crate::model::{Class, Model, RibModel, Substitution, assemble};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -28,8 +29,9 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let _ = (file, changes);
-        Err(RunError::Input("not yet".into(), Vec::new()))
+        let input = input::read_with(file, changes)
+            .map_err(|mistakes| RunError::Input(mistakes.to_string(), mistakes.list.iter().map(reported).collect()))?;
+        Subject::assemble(input.problem.without_kinks(), file, input.sha256)
     }
 
     /// Assembles a checked declaration that was read from `file`.
@@ -95,4 +97,16 @@ impl Subject {
 fn volume_row(total: Total) -> Constraint {
     let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
     Constraint { name: String::new(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
+}
+
+/// A mistake of the reader as reports show it.
+fn reported(mistake: &input::Mistake) -> Mistake {
+    let place = |number: usize| (number > 0).then_some(number);
+    Mistake {
+        file: Some(mistake.file.clone()),
+        line: place(mistake.line),
+        column: place(mistake.column),
+        message: mistake.message.clone(),
+        help: mistake.help.clone(),
+    }
 }
