@@ -62,8 +62,8 @@ pub(super) struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// The form of `model`, variables scaled by the magnitude of `start`, rows and objective not yet.
-    pub fn new(model: Source<'a>, start: &[f64]) -> Self {
+    /// The form of `model`, fixed variables at `start`, the others scaled by `magnitudes`, rows and objective not yet.
+    pub fn new(model: Source<'a>, start: &[f64], magnitudes: &[f64]) -> Self {
         let meta = model.meta();
         let free: Vec<usize> = (0..meta.variables()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
         let rows: Vec<usize> =
@@ -72,7 +72,7 @@ impl<'a> Form<'a> {
         let slack: Vec<Option<usize>> =
             rows.iter().map(|&i| (meta.row_lower[i] != meta.row_upper[i]).then(|| inequalities.next()).flatten()).collect();
         let variable_scale: Vec<f64> =
-            free.iter().map(|&j| scaling::variable_scale(start[j], meta.lower[j], meta.upper[j])).collect();
+            free.iter().map(|&j| scaling::variable_scale(magnitudes[j], meta.lower[j], meta.upper[j])).collect();
         let (jacobian, jacobian_entries) = select_jacobian(&meta.jacobian, &rows, &free, meta.variables());
         let (hessian, hessian_entries) = select_hessian(&meta.hessian, &free, meta.variables());
         let mut x = start.to_vec();

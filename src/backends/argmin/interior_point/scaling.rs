@@ -10,6 +10,8 @@ use super::vectors::power_of_two;
 const LARGEST_GRADIENT: f64 = 100.0;
 /// Gradients smaller than this are scaled up to it.
 const SMALLEST_GRADIENT: f64 = 1e-2;
+/// Gradients below this share of the row's limit are flat.
+const FLAT: f64 = 1e-8;
 /// No scale goes beyond this or below its inverse.
 const EXTREME: f64 = 1e12;
 
@@ -24,7 +26,7 @@ pub(super) fn variable_scale(start: f64, lower: f64, upper: f64) -> f64 {
 }
 
 /// The scale that brings a gradient of this size into the ordinary range.
-fn gradient_scale(size: f64) -> f64 {
+pub(super) fn gradient_scale(size: f64) -> f64 {
     let wanted = match size {
         size if size > LARGEST_GRADIENT => LARGEST_GRADIENT / size,
         size if size > 0.0 && size < SMALLEST_GRADIENT => SMALLEST_GRADIENT / size,
@@ -45,7 +47,7 @@ pub(super) fn gradient_scales(form: &Form<'_>, gradient: &[f64], jacobian: &[f64
         .map(|i| {
             let size = largest(&jacobian[form.jacobian.range(i)]);
             // A flat start says nothing of the row's size; its limit does.
-            gradient_scale(if size < SMALLEST_GRADIENT { size.max(limit(i)).min(SMALLEST_GRADIENT) } else { size })
+            gradient_scale(if size < FLAT * limit(i) { limit(i) } else { size })
         })
         .collect();
     (gradient_scale(largest(gradient)), rows)
