@@ -16,6 +16,8 @@ const SMALLEST_SHARE: f64 = 1e-8;
 const MOST_RESCALED: usize = 3;
 /// Runs from elsewhere, each this share of the way towards the middle of the bounds, with this barrier parameter.
 const ELSEWHERE: [(f64, f64); 2] = [(0.1, 1.0), (0.5, 10.0)];
+/// By how much these runs ease the limits of rows, so that rows without an interior have one.
+const EASE: f64 = 1e-9;
 /// Larger problems are not begun again from elsewhere: it would take too long.
 const LARGEST_REPEATED: usize = 10_000;
 
@@ -50,7 +52,7 @@ impl Attempts {
         let Some(&(share, mu)) = ELSEWHERE.get(self.elsewhere).filter(|_| !hopeless) else { return Ok(None) };
         self.elsewhere += 1;
         let x = start::towards_middle(model.meta(), start, share);
-        begin(model, Beginning { mu: Some(mu), ..Beginning::at(&x) })
+        begin(model, Beginning { mu: Some(mu), ease: EASE, ..Beginning::at(&x) })
     }
 
     fn in_new_scales<'a>(
@@ -132,5 +134,5 @@ fn rows_outgrown<'e>(form: &'e Form<'_>, engine: &'e Engine<'_>, growth: &'e [f6
     let objective = engine.iterate.gradient.iter().zip(growth).map(|(g, d)| (g * d).abs()).fold(0.0, f64::max);
     // The objective's gradient may vanish at a solution: only scales that were cut down too far count.
     let objective = if form.objective_scale < 1.0 || objective > 1.0 { objective } else { 1.0 };
-    rows.chain([objective]).map(scaling::gradient_scale)
+    rows.chain([objective]).map(|size| scaling::gradient_scale(size, 0.0))
 }

@@ -107,6 +107,8 @@ pub(super) struct Beginning<'s> {
     pub magnitudes: &'s [f64],
     /// The model's row multipliers of an earlier answer.
     pub multipliers: Option<&'s [f64]>,
+    /// By how much the limits of rows are eased while iterating.
+    pub ease: f64,
     /// First barrier parameter, if not the usual one.
     pub mu: Option<f64>,
     /// Push inside the bounds, if not the usual one.
@@ -116,7 +118,7 @@ pub(super) struct Beginning<'s> {
 impl<'s> Beginning<'s> {
     /// A cold start.
     pub fn at(x: &'s [f64]) -> Self {
-        Beginning { x, magnitudes: x, multipliers: None, mu: None, push: None }
+        Beginning { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
     }
 }
 
@@ -125,6 +127,7 @@ impl<'a> Engine<'a> {
     pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
         let mut form = Form::new(model, beginning.x, beginning.magnitudes);
+        form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
         let mu = beginning.mu.unwrap_or(if warm { 1e-6 } else { FIRST_BARRIER });
         let mut iterate = start::place(&mut form, beginning.x, push)?;

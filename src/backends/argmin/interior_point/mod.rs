@@ -147,6 +147,7 @@ impl Engine<'_> {
         let (termination, message, invalid) = match ending {
             Ending::Optimal | Ending::Acceptable => {
                 std::mem::swap(&mut self.iterate, &mut self.best.iterate);
+                self.form.tighten();
                 // A run told to stop keeps the point as it is.
                 let _ = self.polish();
                 (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)

@@ -36,7 +36,7 @@ pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64) -> Result<Ite
         iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
     }
     evaluate_in_domain(form, &mut iterate)?;
-    let (objective_scale, row_scale) = scaling::gradient_scales(form, &iterate.gradient, &iterate.jacobian);
+    let (objective_scale, row_scale) = scaling::gradient_scales(form, iterate.objective, &iterate.gradient, &iterate.jacobian);
     form.rescale(objective_scale, row_scale);
     iterate.evaluate(form)?;
     place_slacks(form, &mut iterate, push);
