@@ -37,7 +37,7 @@ use argmin::core::{Error, KV, Problem, Solver};
 
 use super::state::{Conclusion, NlpState, Point};
 use crate::backends::Termination;
-use crate::model::{EvaluationError, Evaluator, Stop};
+use crate::model::Evaluator;
 use attempts::Attempts;
 use engine::{Beginning, Ending, Engine};
 use form::Source;
@@ -75,7 +75,7 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
                 self.engine = Some(engine);
                 Ok((state.at(point, 0.0, model.evaluations()), None))
             }
-            Err(error) => Ok((state.conclude(stopped(&error), None), None)),
+            Err(error) => Ok((state.conclude(Conclusion::of(&error), None), None)),
         }
     }
 
@@ -105,10 +105,10 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
                         Some((conclusion, answer)) => state.conclude(conclusion, answer),
                         None => state,
                     },
-                    Err(error) => state.conclude(stopped(&error), None),
+                    Err(error) => state.conclude(Conclusion::of(&error), None),
                 }
             }
-            Err(error) => state.conclude(stopped(&error), None),
+            Err(error) => state.conclude(Conclusion::of(&error), None),
         };
         Ok((state, None))
     }
@@ -116,16 +116,6 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
 
 fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
     problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
-}
-
-/// What an evaluation error means for the run.
-fn stopped(error: &EvaluationError) -> Conclusion {
-    let (termination, invalid) = match error {
-        EvaluationError::Stopped(Stop::Interrupted) => (Termination::Interrupted, None),
-        EvaluationError::Stopped(_) => (Termination::LimitReached, None),
-        EvaluationError::Invalid { .. } => (Termination::Failed, Some(error.to_string())),
-    };
-    Conclusion { termination, message: error.to_string(), invalid }
 }
 
 impl Engine<'_> {
