@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod hock_schittkowski;
+mod large;
 mod runs;
 
 use super::Argmin;
