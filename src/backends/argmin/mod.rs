@@ -6,6 +6,8 @@ mod interior_point;
 mod state;
 #[cfg(test)]
 pub(crate) mod test_models;
+#[cfg(test)]
+mod tests;
 
 use std::cell::RefCell;
 use std::time::Instant;
