@@ -160,6 +160,12 @@ impl Assembly<'_> {
             }
             (Scalar::Expression(_), None) => None,
         };
+        if let Some(value) = &value {
+            let user = format!("definition `{}`", name.text);
+            for formula in value.formulas() {
+                self.cells_filled(formula, None, &user);
+            }
+        }
         self.definitions[at] = value.map(|value| match value {
             Value::Scalar(formula) => Value::Scalar(self.defined(name.text.clone(), formula)),
             Value::Array(list) => {
@@ -185,8 +191,8 @@ impl Assembly<'_> {
         let written = Written { text: String::new(), place: link.place, inside: link.inside };
         let resolved = self.resolved(&written, Some(&scope), Stage::All, |resolver| resolver.scalar(tree));
         let dimension = match resolved {
-            None => Dimension::Constant(1.0),
-            Some(formula) => self.linked(link, formula, shared),
+            Some(formula) if self.cells_filled(&formula, Some(&scope), "a dimension") => self.linked(link, formula, shared),
+            _ => Dimension::Constant(1.0),
         };
         let first = self.problem.sections.first_dimension[link.section as usize] as usize;
         self.problem.sections.dimensions[first + link.position as usize] = dimension;
