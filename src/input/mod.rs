@@ -6,10 +6,12 @@
 mod assemble;
 mod declaration;
 mod declare;
+mod example;
 mod fields;
 mod findings;
 mod load;
 mod mistake;
+mod schema;
 mod source;
 mod table;
 mod table_lines;
@@ -20,9 +22,11 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::problem::Problem;
+pub use example::{example, examples};
 use fields::Reader;
 use findings::Findings;
 pub use mistake::{Mistake, Mistakes, render};
+pub use schema::schema;
 use source::{Place, Source};
 
 /// What a problem file gives.
