@@ -147,8 +147,8 @@ impl Assembly<'_> {
 
     /// The form that asks for exactly the given dimensions; a mistake where there is none.
     fn form(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) -> Option<&'static Form> {
-        let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
-        let fits = |form: &&Form| form.dimensions.len() == given.len() && form.dimensions.iter().all(|d| has(&d));
+        let has = |dimension: &str| given.iter().any(|one| one.name == dimension);
+        let fits = |form: &&Form| form.dimensions.len() == given.len() && form.dimensions.iter().all(|d| has(d));
         if let Some(form) = kind.forms().iter().find(fits) {
             return Some(form);
         }
