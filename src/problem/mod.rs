@@ -8,6 +8,7 @@ mod collections;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
+pub mod kinks;
 pub mod mentions;
 pub mod names;
 pub(crate) mod nearest;
@@ -55,6 +56,17 @@ pub struct Problem {
     pub warnings: Vec<String>,
 }
 
+impl Scope {
+    /// How many rows it makes (before min, max and abs split any).
+    pub fn rows(&self) -> usize {
+        match self {
+            Scope::Once => 1,
+            Scope::Sections(items) | Scope::Ribs(items) => items.len(),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => groups.len(),
+        }
+    }
+}
+
 impl Problem {
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
     pub fn variable_name(&self, j: usize) -> String {
@@ -66,6 +78,22 @@ impl Problem {
                 format!("{}.{}", self.sections.names[section as usize], form.dimensions[position as usize])
             }
         }
+    }
+
+    /// The name of the row that constraint `c` states for its item number `item`: `sag`, `sag[L0]`.
+    pub fn row_name(&self, c: usize, item: usize) -> String {
+        let Constraint { name, scope, .. } = &self.constraints[c];
+        match scope {
+            Scope::Once => name.clone(),
+            Scope::Sections(items) => format!("{name}[{}]", self.sections.names[items[item] as usize]),
+            Scope::Ribs(items) => format!("{name}[{}]", self.ribs.names[items[item] as usize]),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => format!("{name}[{}]", groups[item].0),
+        }
+    }
+
+    /// The points of a section drawn by points; empty for others.
+    pub fn outline(&self, section: u32) -> &[[f64; 2]] {
+        self.sections.outlines.get(&section).map_or(&[], |points| points.as_slice())
     }
 
     /// The dimensions of section `s`, in the order of its form's names.
