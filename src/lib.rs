@@ -22,6 +22,7 @@ pub mod backends;
 pub mod certificate;
 pub mod crosscheck;
 pub mod expression;
+pub mod input;
 pub mod linear_algebra;
 pub mod log;
 pub mod model;

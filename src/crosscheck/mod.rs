@@ -1,172 +1,131 @@
 //! Several backends, one verdict.
+//!
+//! [`run`] solves with each in turn, judges every point by the certificate, gives second tries where a point does not pass, and
+//! says in the end what the problem is worth: a minimum, infeasible, unbounded, not attained, or undecided. A backend's own
+//! status never decides anything.
 
-use std::sync::atomic::AtomicBool;
+mod attempt;
+mod clock;
+mod diverging;
+mod infeasible;
+mod multistart;
+mod restart;
+mod seeds;
+#[cfg(test)]
+mod tests;
+mod types;
+mod verdict;
+mod words;
 
-use crate::backends::{Backend, Iteration, Solution};
-use crate::certificate::{Certificate, Scope};
-use crate::model::{Class, Model, Substitution};
-use crate::problem::Settings;
-
-/// What is to be solved.
-pub struct Task<'a> {
-    /// The problem in the user's variables and units, minimised. Points are judged on it.
-    pub model: &'a dyn Model,
-    /// The same in other variables, where backends are to solve that.
-    pub substitution: Option<&'a dyn Substitution>,
-    /// What is proved about it.
-    pub class: Class,
-    /// Tolerances and limits.
-    pub settings: &'a Settings,
-    /// Starting point, length n, inside the bounds.
-    pub start: &'a [f64],
-    /// Row multipliers of an earlier answer.
-    pub start_multipliers: Option<&'a [f64]>,
-    /// Starting points of the multi-start; 0 or 1: the start alone.
-    pub starts: usize,
-    /// Set by Ctrl-C.
-    pub interrupt: Option<&'a AtomicBool>,
-}
-
-/// Makes the observer of one run, given the backend's place in the list and its algorithm as asked for. Points arrive in the
-/// user's variables.
-pub type ObserverFactory<'a> = dyn FnMut(usize, &str) -> Box<dyn FnMut(&Iteration<'_>) + 'a> + 'a;
-
-/// What a run is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[allow(missing_docs)]
-pub enum Status {
-    Certified,
-    #[default]
-    Uncertified,
-    Infeasible,
-    Unbounded,
-    NotAttained,
-    LimitReached,
-    Interrupted,
-    InvalidValue,
-}
-
-impl Status {
-    /// The word of the result file.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Status::Certified => "certified",
-            Status::Uncertified => "uncertified",
-            Status::Infeasible => "infeasible",
-            Status::Unbounded => "unbounded",
-            Status::NotAttained => "not-attained",
-            Status::LimitReached => "limit-reached",
-            Status::Interrupted => "interrupted",
-            Status::InvalidValue => "invalid-value",
-        }
-    }
-}
-
-/// One backend's answer, judged.
-#[derive(Debug, Clone)]
-pub struct Answer {
-    /// Name of the backend.
-    pub backend: &'static str,
-    /// What it brought back; x in the user's variables.
-    pub solution: Solution,
-    /// f(x), where it has a value.
-    pub objective: Option<f64>,
-    /// What the point is; `None` where it could not be evaluated.
-    pub certificate: Option<Certificate>,
-    /// What happened besides: restarts, cross-starts, why it is not certified.
-    pub remarks: Vec<String>,
-}
-
-/// How far the backends' answers agree.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Agreement {
-    /// All certified and objectives within 1e−6·σ.
-    pub agree: bool,
-    /// Largest difference of the objectives.
-    pub objective_difference: f64,
-    /// Largest |x_j − x'_j|/d_j.
-    pub variable_difference: f64,
-}
-
-/// Rows and bounds that conflict.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Conflict {
-    /// The rows violated at the least-violation point, with the signed amount a limit would have to move.
-    pub violated_rows: Vec<(usize, f64)>,
-    /// A small set of rows that already conflicts,
-    pub rows: Vec<usize>,
-    /// with these bounds (variable, upper side).
-    pub bounds: Vec<(usize, bool)>,
-    /// Limits whose joint relaxation makes it feasible with the least sum (row, signed amount in the row's units).
-    pub relaxations: Vec<(usize, f64)>,
-    /// No part of the set conflicts by itself (proved, for linear, geometric and convex problems).
-    pub minimal: bool,
-}
-
-/// A distinct minimum of the multi-start.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Minimum {
-    /// Its point.
-    pub x: Vec<f64>,
-    /// f(x)
-    pub objective: f64,
-    /// How many starts ended there.
-    pub count: usize,
-}
-
-/// The verdict.
-#[derive(Debug, Clone, Default)]
-pub struct Outcome {
-    /// What the run is worth.
-    pub status: Status,
-    /// How far it reaches.
-    pub scope: Scope,
-    /// Why, in plain sentences.
-    pub message: String,
-    /// What to do about it, where there is something to do.
-    pub remedy: Option<String>,
-    /// The best answer's point, or the least-violation point, or the start.
-    pub x: Vec<f64>,
-    /// f(x), where it has a value.
-    pub objective: Option<f64>,
-    /// What that point is.
-    pub certificate: Option<Certificate>,
-    /// Which of `answers` is the best.
-    pub best: Option<usize>,
-    /// One per backend, in the order given.
-    pub answers: Vec<Answer>,
-    /// Of two or more backends.
-    pub agreement: Option<Agreement>,
-    /// No feasible point is below this (convex classes).
-    pub lower_bound: Option<f64>,
-    /// Where the problem is infeasible.
-    pub conflict: Option<Conflict>,
-    /// Where it is unbounded: a direction, length n.
-    pub direction: Option<Vec<f64>>,
-    /// Variables that run off, where the minimum is not attained.
-    pub runaway: Vec<usize>,
-    /// Distinct minima of the multi-start, best first.
-    pub minima: Vec<Minimum>,
-    /// A backend holds a feasible point better than the certified best answer.
-    pub better_point_elsewhere: bool,
-}
-
-impl Outcome {
-    /// The exit code of `solve` (SPEC §2).
-    pub fn exit_code(&self) -> u8 {
-        match self.status {
-            Status::Certified if !self.better_point_elsewhere => 0,
-            Status::Certified | Status::Uncertified => 1,
-            Status::Infeasible => 3,
-            Status::Unbounded | Status::NotAttained => 4,
-            Status::LimitReached | Status::Interrupted => 5,
-            Status::InvalidValue => 6,
-        }
-    }
-}
+use crate::backends::{Backend, Termination};
+use attempt::{Contestant, Referee};
+use infeasible::Elasticity;
+pub use types::{Agreement, Answer, Conflict, Minimum, ObserverFactory, Outcome, Status, Task};
 
 /// Runs every backend with its algorithm and judges what they bring.
 pub fn run(task: &Task<'_>, backends: &[(&dyn Backend, &str)], observers: &mut ObserverFactory<'_>) -> Outcome {
-    let _ = (backends, observers);
-    Outcome { x: task.start.to_vec(), ..Outcome::default() }
+    let referee = Referee::new(task);
+    let contestants: Vec<_> = backends.iter().map(|&(backend, algorithm)| Contestant { backend, algorithm }).collect();
+    let mut answers = first_answers(&referee, &contestants, observers);
+    let mut minima = Vec::new();
+    if task.starts > 1 && !referee.clock.is_over() {
+        minima = many_starts(&referee, &contestants, &mut answers);
+    }
+    second_tries(&referee, &contestants, &mut answers);
+    let mut outcome = conclude(&referee, &contestants, answers);
+    outcome.minima = minima;
+    outcome
+}
+
+fn first_answers(referee: &Referee<'_>, contestants: &[Contestant<'_>], observers: &mut ObserverFactory<'_>) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    for (k, &contestant) in contestants.iter().enumerate() {
+        let mut observer = observers(k, contestant.algorithm);
+        // A tenth of what is left is kept for judging and second tries.
+        let budget = referee.clock.share(0.9 / (contestants.len() - k) as f64, f64::INFINITY);
+        answers.push(referee.attempt(contestant, referee.task.start, referee.task.start_multipliers, budget, &mut observer));
+    }
+    answers
+}
+
+/// The multi-start; its best point replaces the answer of the backend that found it, where it is better.
+fn many_starts(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) -> Vec<Minimum> {
+    let found = multistart::run(referee, contestants, referee.task.starts - 1);
+    let minima = multistart::minima(answers.iter().chain(found.iter().map(|(_, answer)| answer)));
+    for (k, mut answer) in found {
+        if answers.iter().all(|own| referee.is_better(&answer, own)) {
+            answer.remarks.push("found by the multi-start".into());
+            answers[k] = answer;
+        }
+    }
+    minima
+}
+
+fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) {
+    for (answer, &contestant) in answers.iter_mut().zip(contestants) {
+        restart::improve(referee, contestant, answer);
+    }
+    let Some(best) = verdict::best(referee, answers).map(|best| answers[best].clone()) else { return };
+    if !best.certificate.as_ref().is_some_and(|certificate| certificate.certified) {
+        return;
+    }
+    for (k, &contestant) in contestants.iter().enumerate() {
+        restart::cross_start(referee, contestant, &mut answers[k], &best);
+    }
+    if let Some(k) = verdict::better_elsewhere(referee, answers, &best) {
+        let start = answers[k].solution.x.clone();
+        for (answer, &contestant) in answers.iter_mut().zip(contestants) {
+            restart::retry(
+                referee,
+                contestant,
+                answer,
+                &start,
+                "started again from a better feasible point another backend held",
+            );
+        }
+    }
+}
+
+fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
+    let passes = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    if answers.iter().any(passes) {
+        return verdict::certified(referee, answers);
+    }
+    if referee.clock.is_over() {
+        return verdict::undecided(referee, answers);
+    }
+    if answers.iter().any(|answer| referee.is_feasible(answer)) {
+        return match diverging::examine(referee, contestants, &answers) {
+            Some(ray) => verdict::diverging(referee, answers, ray),
+            None => verdict::undecided(referee, answers),
+        };
+    }
+    if answers.iter().all(|answer| answer.solution.termination == Termination::Refused) {
+        return verdict::undecided(referee, answers);
+    }
+    let near = verdict::best(referee, &answers).filter(|&best| answers[best].certificate.is_some());
+    let near = near.map_or_else(|| referee.task.start.to_vec(), |best| answers[best].solution.x.clone());
+    match infeasible::examine(referee, contestants, &near) {
+        Some(Elasticity::Feasible(start)) => {
+            for (answer, &contestant) in answers.iter_mut().zip(contestants) {
+                restart::retry(referee, contestant, answer, &start, "started again from the feasible point of the elastic phase");
+                restart::improve(referee, contestant, answer);
+            }
+            if answers.iter().any(passes) {
+                verdict::certified(referee, answers)
+            } else {
+                from_feasible(referee, contestants, answers)
+            }
+        }
+        Some(Elasticity::Infeasible { x, conflict }) => verdict::infeasible(referee, answers, x, conflict),
+        Some(Elasticity::Unproved(x)) => verdict::no_feasible_point(referee, answers, x),
+        None => verdict::undecided(referee, answers),
+    }
+}
+
+fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: Vec<Answer>) -> Outcome {
+    match diverging::examine(referee, contestants, &answers) {
+        Some(ray) => verdict::diverging(referee, answers, ray),
+        None => verdict::undecided(referee, answers),
+    }
 }

@@ -4,11 +4,15 @@
 //! (value, exact gradient and Hessian over a few inputs).
 
 pub mod ast;
+pub mod degree;
+pub mod display;
 pub mod graph;
 pub mod kernel;
 mod lexer;
 pub mod operators;
 pub mod parse;
+pub mod structure;
+pub mod substitute;
 pub mod tape;
 pub mod terms;
 

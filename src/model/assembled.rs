@@ -59,8 +59,6 @@ pub struct RowOrigin {
     pub constraint: u32,
     /// Which of its items, counted as its scope lists them.
     pub item: u32,
-    /// Which piece of a row that min, max or abs split, from 1; 0 where it was not split.
-    pub piece: u32,
 }
 
 impl RibModel {
@@ -165,8 +163,7 @@ impl Model for RibModel {
     }
 
     fn row_name(&self, i: usize) -> String {
-        let RowOrigin { constraint, item, piece } = self.row_origin[i];
-        let name = self.problem.row_name(constraint as usize, item as usize);
-        if piece == 0 { name } else { format!("{name}#{piece}") }
+        let RowOrigin { constraint, item } = self.row_origin[i];
+        self.problem.row_name(constraint as usize, item as usize)
     }
 }

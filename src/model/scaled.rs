@@ -39,6 +39,40 @@ impl Scales {
     }
 }
 
+/// Shares of a variable's room by which a point is moved inside its bounds where the model has no value at it.
+const INWARDS: [f64; 4] = [0.0, 1e-6, 1e-3, 1e-1];
+
+/// `x`, moved inwards from its bounds until the model has values and derivatives there, and the scales at it for the
+/// units that `variables` gives.
+///
+/// # Errors
+/// The first error met, where no such point was found.
+pub fn valid_start(
+    model: &dyn Model,
+    x: &[f64],
+    variables: impl Fn(&[f64]) -> Vec<f64>,
+) -> Result<(Vec<f64>, Scales), EvaluationError> {
+    let mut first = None;
+    for share in INWARDS {
+        let x = inwards(x, share, model.meta());
+        match Scales::at(model, &x, variables(&x)) {
+            Ok(scales) => return Ok((x, scales)),
+            Err(error @ EvaluationError::Stopped(_)) => return Err(error),
+            Err(error) => first = first.or(Some(error)),
+        }
+    }
+    Err(first.unwrap_or(EvaluationError::Invalid { term: "start".into(), cause: "no value".into() }))
+}
+
+/// `x` kept from each finite bound by this share of the room, or of the variable's size where there is more room.
+fn inwards(x: &[f64], share: f64, meta: &Meta) -> Vec<f64> {
+    let inside = |(j, &value): (usize, &f64)| {
+        let margin = share * (meta.upper[j] - meta.lower[j]).min(value.abs().max(1.0));
+        value.max(meta.lower[j] + margin).min(meta.upper[j] - margin).max(meta.lower[j]).min(meta.upper[j])
+    };
+    x.iter().enumerate().map(inside).collect()
+}
+
 fn row_scale(meta: &Meta, row: usize, jacobian: &[f64], variables: &[f64]) -> f64 {
     let limits = [meta.row_lower[row], meta.row_upper[row]];
     let limit = limits.into_iter().filter(|limit| limit.is_finite()).fold(0.0, |largest: f64, limit| largest.max(limit.abs()));

@@ -12,4 +12,9 @@ pub trait Substitution: Sync {
 
     /// x(z)
     fn outward(&self, z: &[f64]) -> Vec<f64>;
+
+    /// f(x(z)) from the substituted model's objective, where that is not f itself (but, say, its logarithm). Increasing.
+    fn outward_objective(&self, value: f64) -> f64 {
+        value
+    }
 }

@@ -2,13 +2,24 @@
 //!
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
+pub mod cells;
+mod collections;
+pub mod evaluate;
 pub mod formula;
+pub mod kinks;
+pub mod mentions;
+pub mod names;
+pub(crate) mod nearest;
+pub mod order;
+pub mod pattern;
+pub mod resolve;
 pub mod settings;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::sections;
+pub use collections::sections_form;
 pub use formula::{Formula, Property};
 pub use settings::Settings;
 
@@ -179,6 +190,21 @@ pub enum VolumeLaw {
     Frustum,
     /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
     Prismatoid,
+}
+
+impl VolumeLaw {
+    /// The law's name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            VolumeLaw::Frustum => "frustum",
+            VolumeLaw::Prismatoid => "prismatoid",
+        }
+    }
+
+    /// The law of this name.
+    pub fn named(name: &str) -> Option<VolumeLaw> {
+        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().find(|law| law.name() == name)
+    }
 }
 
 /// One data column of sections or ribs.

@@ -1,6 +1,7 @@
 //! The backend `argmin`, the only room naming that library: solvers of our own under its `Executor`, with a state of
 //! our own, watched by an argmin observer.
 
+mod augmented_lagrangian;
 mod interior_point;
 mod state;
 #[cfg(test)]
@@ -13,13 +14,16 @@ use argmin::core::observers::ObserverMode;
 use argmin::core::{Executor, Solver};
 
 use super::{Backend, Iteration, Job, Solution, Termination};
-use crate::model::{Evaluator, Model};
+use crate::model::scaled::Scaled;
+use crate::model::{EvaluationError, Evaluator, Model};
+use augmented_lagrangian::AugmentedLagrangian;
 use interior_point::InteriorPoint;
-use state::{NlpState, Watch};
+use state::{Conclusion, NlpState, Watch};
 
 const INTERIOR_POINT: &str = "interior-point";
+const AUGMENTED_LAGRANGIAN: &str = "augmented-lagrangian";
 
-/// argmin: the interior point (default), for every model.
+/// argmin: the interior point (default), for every model, and the augmented Lagrangian.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Argmin;
 
@@ -29,12 +33,16 @@ impl Backend for Argmin {
     }
 
     fn algorithms(&self) -> &'static [&'static str] {
-        &[INTERIOR_POINT]
+        &[INTERIOR_POINT, AUGMENTED_LAGRANGIAN]
     }
 
-    fn refusal(&self, algorithm: &str, _model: &dyn Model) -> Option<String> {
+    fn refusal(&self, algorithm: &str, model: &dyn Model) -> Option<String> {
         let known = algorithm == "auto" || self.algorithms().contains(&algorithm);
-        (!known).then(|| format!("argmin has no algorithm `{algorithm}`; it has {}", self.algorithms().join(", ")))
+        match algorithm {
+            AUGMENTED_LAGRANGIAN => augmented_lagrangian::refusal(model.meta()),
+            _ if known => None,
+            _ => Some(format!("argmin has no algorithm `{algorithm}`; it has {}", self.algorithms().join(", "))),
+        }
     }
 
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution {
@@ -43,9 +51,27 @@ impl Backend for Argmin {
         }
         let began = Instant::now();
         let evaluator = Evaluator::new(model, job.budget);
-        let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
-        let state = run(solver, &evaluator, job);
-        solution(INTERIOR_POINT, state, &evaluator, began)
+        let (algorithm, finished) = match job.algorithm {
+            AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, augmented_lagrangian(&evaluator, job)),
+            _ => {
+                let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
+                (INTERIOR_POINT, run(solver, &evaluator, job))
+            }
+        };
+        solution(algorithm, finished, &evaluator, began)
+    }
+}
+
+/// The augmented Lagrangian, in the units of its start.
+fn augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
+    let (x, scales) = match augmented_lagrangian::start(evaluator, job.start) {
+        Ok(found) => found,
+        Err(error) => return Finished::without_value(job.start, &error),
+    };
+    let scaled = Scaled::new(evaluator, scales);
+    match AugmentedLagrangian::new(&scaled, &x, job) {
+        Some(solver) => run(solver, evaluator, job),
+        None => Finished::failed(job.start, "the rows are too dense".into()),
     }
 }
 
@@ -80,6 +106,11 @@ struct Finished {
 }
 
 impl Finished {
+    fn without_value(start: &[f64], error: &EvaluationError) -> Self {
+        let Conclusion { termination, message, invalid } = Conclusion::of(error);
+        Finished { termination, invalid, ..Self::failed(start, message) }
+    }
+
     fn failed(start: &[f64], message: String) -> Self {
         let termination = Termination::Failed;
         Finished { termination, message, invalid: None, x: start.to_vec(), multipliers: None, iterations: 0 }

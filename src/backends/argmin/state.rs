@@ -9,6 +9,7 @@ use argmin::core::{Error, KV, Problem, State, TerminationReason, TerminationStat
 
 use super::Finished;
 use crate::backends::{Iteration, Termination};
+use crate::model::{EvaluationError, Stop};
 
 /// A point with what decides its rank, and what is shown of it.
 #[derive(Debug, Clone)]
@@ -34,6 +35,18 @@ pub(super) struct Conclusion {
     pub message: String,
     /// The evaluation error that ended the run.
     pub invalid: Option<String>,
+}
+
+impl Conclusion {
+    /// What an evaluation error means for a run.
+    pub fn of(error: &EvaluationError) -> Self {
+        let (termination, invalid) = match error {
+            EvaluationError::Stopped(Stop::Interrupted) => (Termination::Interrupted, None),
+            EvaluationError::Stopped(_) => (Termination::LimitReached, None),
+            EvaluationError::Invalid { .. } => (Termination::Failed, Some(error.to_string())),
+        };
+        Conclusion { termination, message: error.to_string(), invalid }
+    }
 }
 
 /// What the executor carries from iteration to iteration.

@@ -4,14 +4,11 @@ use super::attempt::{End, SEED, run};
 use super::form::Form;
 use super::plan::{From, Step, Unit};
 use super::watch::Watch;
-use crate::model::scaled::Scales;
+use crate::model::scaled::{Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
 /// Runs inside a box about the best point, after a model gave no number further out.
 const GUARDED_RUNS: u32 = 40;
-/// Shares of a variable's room by which a start is moved inside its bounds where the model has no value at it.
-const INWARDS: [f64; 4] = [0.0, 1e-6, 1e-3, 1e-1];
-
 /// What a plan came to.
 pub(super) struct Outcome {
     /// The algorithm of the attempt that counts.
@@ -116,22 +113,12 @@ impl Driver<'_, '_, '_, '_> {
 
     /// The point to start from, moved inside its bounds until the model has values there, and the scales at it.
     fn starting_point(&self, from: From, unit: Unit) -> Result<(Vec<f64>, Scales), EvaluationError> {
-        let meta = self.evaluator.meta();
-        let origin = self.origin(from);
-        let mut first = None;
-        for share in INWARDS {
-            let x = inwards(&origin, share, meta);
-            let units = x.iter().zip(self.watch.job().start).map(|(x, start)| match unit {
-                Unit::Magnitude => x.abs().max(start.abs()),
-                Unit::One => 1.0,
-            });
-            match Scales::at(self.evaluator, &x, units.collect()) {
-                Ok(scales) => return Ok((x, scales)),
-                Err(error @ EvaluationError::Stopped(_)) => return Err(error),
-                Err(error) => first = first.or(Some(error)),
-            }
-        }
-        Err(first.unwrap_or(EvaluationError::Invalid { term: "start".into(), cause: "no value".into() }))
+        let start = self.watch.job().start;
+        let size = |(x, start): (&f64, &f64)| match unit {
+            Unit::Magnitude => x.abs().max(start.abs()),
+            Unit::One => 1.0,
+        };
+        valid_start(self.evaluator, &self.origin(from), |x| x.iter().zip(start).map(size).collect())
     }
 
     fn origin(&self, from: From) -> Vec<f64> {
@@ -149,18 +136,9 @@ impl Driver<'_, '_, '_, '_> {
 
 fn clamp(mut x: Vec<f64>, meta: &Meta) -> Vec<f64> {
     for (j, value) in x.iter_mut().enumerate() {
-        *value = value.clamp(meta.lower[j], meta.upper[j]);
+        *value = value.max(meta.lower[j]).min(meta.upper[j]);
     }
     x
-}
-
-/// `x` kept from each finite bound by this share of the room, or of the variable's size where there is more room.
-fn inwards(x: &[f64], share: f64, meta: &Meta) -> Vec<f64> {
-    let inside = |j: usize, value: f64| {
-        let margin = share * (meta.upper[j] - meta.lower[j]).min(value.abs().max(1.0));
-        value.max(meta.lower[j] + margin).min(meta.upper[j] - margin).clamp(meta.lower[j], meta.upper[j])
-    };
-    x.iter().enumerate().map(|(j, &value)| inside(j, value)).collect()
 }
 
 /// `x` moved by up to ±share of each variable's size, always in the same way (SplitMix64).

@@ -79,7 +79,7 @@ impl<'a> Form<'a> {
     pub fn complete(&self, w: &[f64]) -> Vec<f64> {
         let mut full = self.template.clone();
         for (at, &j) in self.free.iter().enumerate() {
-            full[j] = w[at].clamp(self.scaled.meta().lower[j], self.scaled.meta().upper[j]);
+            full[j] = w[at].max(self.scaled.meta().lower[j]).min(self.scaled.meta().upper[j]);
         }
         full
     }
@@ -160,7 +160,7 @@ impl<'a> Form<'a> {
 
 fn clamped(mut point: Vec<f64>, meta: &Meta) -> Vec<f64> {
     for (j, value) in point.iter_mut().enumerate() {
-        *value = value.clamp(meta.lower[j], meta.upper[j]);
+        *value = value.max(meta.lower[j]).min(meta.upper[j]);
     }
     point
 }

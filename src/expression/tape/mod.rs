@@ -7,6 +7,8 @@
 mod explain;
 mod partials;
 mod program;
+#[cfg(test)]
+mod random_tests;
 mod schedule;
 mod sweep;
 #[cfg(test)]

@@ -229,18 +229,7 @@ fn commutes(operation: Operation) -> bool {
 /// A number per node below `root` that depends on the shape alone: not on which input, datum or constant stands where.
 fn shapes(graph: &Graph, root: NodeId) -> HashMap<NodeId, u64> {
     let mut shapes: HashMap<NodeId, u64> = HashMap::new();
-    let mut nodes = Vec::new();
-    let mut stack = vec![root];
-    while let Some(node) = stack.pop() {
-        if shapes.insert(node, 0).is_none() {
-            nodes.push(node);
-            if let Some((_, left, right)) = operation(graph, node) {
-                stack.extend([left, right]);
-            }
-        }
-    }
-    nodes.sort_unstable(); // operands have smaller numbers
-    for node in nodes {
+    for node in graph.below(root) {
         let shape = match graph.node(node) {
             Node::Constant(_) => 1,
             Node::Data(_) => 2,

@@ -6,21 +6,21 @@ mod lower;
 mod plan;
 mod sum;
 mod template;
+mod walk;
 
 use std::sync::Arc;
 
 use thiserror::Error;
 
 use super::assembled::{Affine, RibModel, RowOrigin};
-use super::elements::Label;
 use super::{Meta, Pattern};
 use crate::expression::tape::TapeError;
-use crate::problem::{Formula, Limit, Problem, Scope, Sense};
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Sense};
 use facts::Facts;
 use groups::{Groups, Kernels};
 use lower::{Context, Item};
-use sum::Summation;
-use template::Target;
+use sum::{Summation, Templates};
+use walk::Walk;
 
 /// Assembles objective and rows with their derivatives and sparsity patterns.
 ///
@@ -43,14 +43,23 @@ pub fn assemble(problem: &Arc<Problem>) -> Result<RibModel, AssemblyError> {
 }
 
 fn objective(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
-    let (mut affine, mut groups) = (Affine::default(), Groups::default());
     let sign = match problem.sense {
         Sense::Minimize => 1.0,
         Sense::Maximize => -1.0,
     };
-    let mut target = Target { affine: &mut affine, groups: &mut groups, row: None, label: Label::Objective };
-    let added = Summation::new(problem, facts, kernels).add(&problem.objective, sign, Context::GLOBAL, &mut target);
-    added.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;
+    let (mut groups, mut templates) = (Groups::default(), Templates::default());
+    let mut summation = Summation {
+        problem,
+        kernels,
+        templates: &mut templates,
+        groups: &mut groups,
+        affine: Affine::default(),
+        row: None,
+        elements: 0,
+    };
+    let walked = Walk::new(problem, facts).visit(&problem.objective, sign, Context::GLOBAL, &mut summation);
+    walked.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;
+    let mut affine = summation.affine;
     affine.merge();
     Ok((affine, groups))
 }
@@ -80,12 +89,10 @@ impl Rows {
     fn of(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<Rows, AssemblyError> {
         let mut rows = Rows::default();
         for (index, constraint) in problem.constraints.iter().enumerate() {
-            let mut summation = Summation::new(problem, facts, kernels);
+            let (mut walk, mut templates) = (Walk::new(problem, facts), Templates::default());
             for item in 0..constraint.scope.rows() {
-                let origin = RowOrigin { constraint: index as u32, item: item as u32, piece: 0 };
-                let context = context(&constraint.scope, item);
-                let added = rows.add(&constraint.left, &constraint.right, context, origin, &mut summation);
-                added.map_err(|cause| AssemblyError {
+                let origin = RowOrigin { constraint: index as u32, item: item as u32 };
+                rows.add(constraint, origin, &mut walk, kernels, &mut templates).map_err(|cause| AssemblyError {
                     place: format!("{} (constraint {})", constraint.place, constraint.name),
                     cause,
                 })?;
@@ -96,21 +103,22 @@ impl Rows {
 
     fn add(
         &mut self,
-        left: &Formula,
-        right: &Limit,
-        context: Context,
+        constraint: &Constraint,
         origin: RowOrigin,
-        summation: &mut Summation,
+        walk: &mut Walk,
+        kernels: &mut Kernels,
+        templates: &mut Templates,
     ) -> Result<(), TapeError> {
-        let row = self.affine.len() as u32;
-        let mut affine = Affine::default();
-        let mut target = Target { affine: &mut affine, groups: &mut self.groups, row: Some(row), label: Label::Row(row) };
-        let before = summation.elements;
-        summation.add(left, 1.0, context, &mut target)?;
-        let (lower, upper) = limits(right, |formula| summation.constant(formula, context));
+        let context = context(&constraint.scope, origin.item as usize);
+        let row = Some(self.affine.len() as u32);
+        let (problem, groups) = (walk.problem, &mut self.groups);
+        let mut summation = Summation { problem, kernels, templates, groups, affine: Affine::default(), row, elements: 0 };
+        walk.visit(&constraint.left, 1.0, context, &mut summation)?;
+        let Summation { mut affine, elements, .. } = summation;
         affine.merge();
         self.affine.push(affine);
-        self.nonlinear.push(summation.elements > before);
+        self.nonlinear.push(elements > 0);
+        let (lower, upper) = limits(&constraint.right, |formula| walk.constant(formula, context));
         self.lower.push(lower);
         self.upper.push(upper);
         self.origin.push(origin);

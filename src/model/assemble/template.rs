@@ -1,6 +1,7 @@
 //! A formula compiled once for all items of one shape: constant, affine terms, and terms with a kernel.
 
 use super::groups::{Groups, Kernels};
+use crate::expression::degree::Degrees;
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::tape::{Literals, Program, Source, Tape, TapeError, Workspace};
 use crate::expression::terms;
@@ -68,7 +69,7 @@ pub(super) struct Target<'a> {
 impl Template {
     /// Splits and compiles the formula at `root`.
     pub fn compile(graph: &mut Graph, root: NodeId, kernels: &mut Kernels) -> Result<Template, TapeError> {
-        let split = terms::split(graph, root);
+        let split = terms::split(graph, &mut Degrees::new(graph), root);
         let constant = Coefficient::compile(graph, split.constant)?;
         let mut template = Template { constant, linear: Vec::new(), terms: Vec::new() };
         for (coefficient, node) in split.terms {

@@ -20,6 +20,8 @@ pub(super) const ACCEPTABLE: f64 = 1e-6;
 /// Iterations without a better optimality error after which a run has stalled: near a solution, and far from one.
 const PATIENCE_NEAR: u64 = 15;
 const PATIENCE_FAR: u64 = 1500;
+/// δ_c where only the number of negative eigenvalues is wanted.
+pub(super) const LAST_REGULARISATION: f64 = 1e-10;
 /// First and last barrier parameter, κ_μ, θ_μ and κ_ε of its decrease, τ_min.
 const FIRST_BARRIER: f64 = 0.1;
 const LAST_BARRIER: f64 = 1e-12;
@@ -80,6 +82,8 @@ pub(super) struct Engine<'a> {
     /// The optimality error of the current iterate.
     pub errors: Errors,
     pub best: Best,
+    /// Saddle points left so far.
+    pub escapes: usize,
     tiny_steps: usize,
     iterations: u64,
 }
@@ -117,7 +121,7 @@ impl<'a> Engine<'a> {
         match beginning.multipliers {
             Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
             None => {
-                start::central_bound_multipliers(&form, &mut iterate, mu, 1e3);
+                start::unit_bound_multipliers(&form, &mut iterate);
                 start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
             }
         }
@@ -141,6 +145,7 @@ impl<'a> Engine<'a> {
             restorations: 0,
             step_norm: 0.0,
             errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
+            escapes: 0,
             tiny_steps: 0,
             iterations: 0,
             form,
@@ -161,8 +166,10 @@ impl<'a> Engine<'a> {
         if self.restoration.is_some() {
             return self.restoration_step();
         }
-        if let Some(ending) = self.ending() {
-            return Ok(Some(ending));
+        match self.ending() {
+            Some(Ending::Optimal | Ending::Acceptable) if self.leave_saddle()? => {}
+            Some(ending) => return Ok(Some(ending)),
+            None => {}
         }
         self.decrease_barrier();
         match self.newton_direction() {
@@ -183,6 +190,14 @@ impl<'a> Engine<'a> {
             self.best.iteration = self.iterations;
             self.best.iterate.clone_from(&self.iterate);
         }
+    }
+
+    /// Starts the search for the best iterate and the filter anew.
+    pub fn forget(&mut self) {
+        self.filter.reset(self.largest_violation);
+        self.best.error = f64::INFINITY;
+        self.tiny_steps = 0;
+        self.assess();
     }
 
     fn ending(&self) -> Option<Ending> {

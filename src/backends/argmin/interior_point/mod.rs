@@ -9,7 +9,9 @@
 //! | [`barrier`] | the logarithmic barrier |
 //! | [`kkt`] | the Newton system and its inertia |
 //! | [`line_search`], [`filter`] | which steps are taken |
-//! | [`restoration`], [`elastic`] | the way back to feasibility, or the proof that there is none nearby |
+//! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
+//! | [`saddle`] | leaving stationary points that are no minima |
+//! | [`polish`] | the last digits, on the active set |
 
 mod barrier;
 mod elastic;
@@ -19,7 +21,9 @@ mod form;
 mod iterate;
 mod kkt;
 mod line_search;
+mod polish;
 mod restoration;
+mod saddle;
 mod scaling;
 mod start;
 mod vectors;
@@ -29,7 +33,7 @@ use argmin::core::{Error, KV, Problem, Solver};
 
 use super::state::{Conclusion, NlpState, Point};
 use crate::backends::Termination;
-use crate::model::{EvaluationError, Evaluator, Stop};
+use crate::model::Evaluator;
 use engine::{Beginning, Ending, Engine};
 use form::Source;
 
@@ -65,7 +69,7 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
                 self.engine = Some(engine);
                 Ok((state.at(point, 0.0, model.evaluations()), None))
             }
-            Err(error) => Ok((state.conclude(stopped(&error), None), None)),
+            Err(error) => Ok((state.conclude(Conclusion::of(&error), None), None)),
         }
     }
 
@@ -87,7 +91,7 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
                 let (conclusion, answer) = engine.conclude(ending);
                 state.at(engine.point(), 0.0, model.evaluations()).conclude(conclusion, answer)
             }
-            Err(error) => state.conclude(stopped(&error), None),
+            Err(error) => state.conclude(Conclusion::of(&error), None),
         };
         Ok((state, None))
     }
@@ -95,16 +99,6 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
 
 fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
     problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
-}
-
-/// What an evaluation error means for the run.
-fn stopped(error: &EvaluationError) -> Conclusion {
-    let (termination, invalid) = match error {
-        EvaluationError::Stopped(Stop::Interrupted) => (Termination::Interrupted, None),
-        EvaluationError::Stopped(_) => (Termination::LimitReached, None),
-        EvaluationError::Invalid { .. } => (Termination::Failed, Some(error.to_string())),
-    };
-    Conclusion { termination, message: error.to_string(), invalid }
 }
 
 impl Engine<'_> {
@@ -126,7 +120,9 @@ impl Engine<'_> {
         let (termination, message, invalid) = match ending {
             Ending::Optimal | Ending::Acceptable => {
                 std::mem::swap(&mut self.iterate, &mut self.best.iterate);
-                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.best.error), None)
+                // A run told to stop keeps the point as it is.
+                let _ = self.polish();
+                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
             }
             Ending::Infeasible => {
                 let violation = self.form.violation(&self.iterate.rows);

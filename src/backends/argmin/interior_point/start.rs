@@ -93,6 +93,14 @@ pub(super) fn central_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate, 
     }
 }
 
+/// Bound multipliers 1, the usual first guess.
+pub(super) fn unit_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate) {
+    for j in 0..form.size() {
+        iterate.z_lower[j] = f64::from(u8::from(form.lower[j].is_finite()));
+        iterate.z_upper[j] = f64::from(u8::from(form.upper[j].is_finite()));
+    }
+}
+
 /// Row multipliers by least squares: min ‖∇f + Aᵀy − z_l + z_u‖₂. Zero where they come out large or not at all.
 pub(super) fn least_squares_multipliers(form: &Form<'_>, kkt: &mut Kkt, iterate: &mut Iterate) {
     iterate.y.fill(0.0);
