@@ -22,7 +22,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
     let interrupt = interrupt::flag();
     let mut trials = Vec::new();
     for subject in &subjects {
-        output::warn(&subject.about.warnings);
+        output::tell(&subject.warnings);
         let of_file = compare(subject, Some(interrupt));
         if !arguments.json {
             let (about, class) = (&subject.about, subject.class);

@@ -17,7 +17,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     // The limit is on the whole command, reading included.
     let settings = &mut subject.settings;
     settings.max_seconds = (settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
-    output::warn(&subject.about.warnings);
+    output::tell(&subject.warnings);
     let request = Request {
         choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
         out: arguments.out.as_deref(),

@@ -13,7 +13,16 @@ const INF: f64 = f64::INFINITY;
 fn verdict(model: &Sample, class: Class, starts: usize) -> Outcome {
     let settings = Settings { max_seconds: 60.0, ..Settings::default() };
     let start = model.meta().start.clone();
-    let task = Task { model, substitution: None, class, settings: &settings, start: &start, start_multipliers: None, starts, interrupt: None };
+    let task = Task {
+        model,
+        substitution: None,
+        class,
+        settings: &settings,
+        start: &start,
+        start_multipliers: None,
+        starts,
+        interrupt: None,
+    };
     let mut backends: Vec<(&dyn Backend, &str)> = vec![(&Argmin, "auto")];
     #[cfg(feature = "nlopt")]
     backends.push((&crate::backends::nlopt::Nlopt, "auto"));
@@ -58,9 +67,10 @@ fn an_infeasible_problem_shows_what_conflicts() {
 
 #[test]
 fn inconsistent_equalities_are_infeasible() {
-    let model = Sample::new(&[1.0, 1.0], |x| square(&x[0]) + square(&x[1]))
-        .row(1.0, 1.0, |x| x[0].clone() + &x[1])
-        .row(3.0, 3.0, |x| x[0].clone() * 2.0 + x[1].clone() * 2.0);
+    let model =
+        Sample::new(&[1.0, 1.0], |x| square(&x[0]) + square(&x[1]))
+            .row(1.0, 1.0, |x| x[0].clone() + &x[1])
+            .row(3.0, 3.0, |x| x[0].clone() * 2.0 + x[1].clone() * 2.0);
     let outcome = verdict(&model, Class::Convex, 0);
     assert_eq!(outcome.exit_code(), 3);
     assert_eq!(outcome.conflict.unwrap().rows, [0, 1]);
@@ -68,16 +78,21 @@ fn inconsistent_equalities_are_infeasible() {
 
 #[test]
 fn infeasible_by_a_millionth_is_infeasible() {
-    let model = Sample::new(&[0.0], |x| x[0].clone()).bound(0, -5.0, 5.0).row(1.000_001, INF, |x| x[0].clone()).row(-INF, 1.0, |x| x[0].clone());
+    let model =
+        Sample::new(&[0.0], |x| x[0].clone())
+            .bound(0, -5.0, 5.0)
+            .row(1.000_001, INF, |x| x[0].clone())
+            .row(-INF, 1.0, |x| x[0].clone());
     assert_eq!(verdict(&model, Class::Linear, 0).exit_code(), 3);
 }
 
 #[test]
 fn one_row_against_the_bounds_names_both() {
-    let model = Sample::new(&[0.03, 0.1], |x| x[0].clone() * &x[1])
-        .bound(0, 0.01, 0.05)
-        .bound(1, 0.05, 0.2)
-        .row(-INF, 1.0, |x| (x[0].clone() * square(&x[1])).recip() * 0.01);
+    let model =
+        Sample::new(&[0.03, 0.1], |x| x[0].clone() * &x[1])
+            .bound(0, 0.01, 0.05)
+            .bound(1, 0.05, 0.2)
+            .row(-INF, 1.0, |x| (x[0].clone() * square(&x[1])).recip() * 0.01);
     let outcome = verdict(&model, Class::Nonlinear, 0);
     assert_eq!(outcome.exit_code(), 3);
     let conflict = outcome.conflict.unwrap();
@@ -96,14 +111,18 @@ fn a_local_minimum_of_the_violation_does_not_deceive() {
 
 #[test]
 fn unbounded_problems_show_a_direction() {
-    let linear = Sample::new(&[1.0, 1.0], |x| -x[0].clone() - &x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF).row(-INF, 1.0, |x| x[0].clone() - &x[1]);
+    let linear = Sample::new(&[1.0, 1.0], |x| -x[0].clone() - &x[1])
+        .bound(0, 0.0, INF)
+        .bound(1, 0.0, INF)
+        .row(-INF, 1.0, |x| x[0].clone() - &x[1]);
     let outcome = verdict(&linear, Class::Linear, 0);
     assert_eq!((outcome.status, outcome.exit_code()), (Status::Unbounded, 4));
     assert!(outcome.direction.is_some_and(|v| v[1] > 0.0 && v[0] <= v[1]));
-    let ratio = Sample::new(&[1.0, 1.0], |x| x[0].clone() - &x[1])
-        .bound(0, 0.001, INF)
-        .bound(1, 0.001, INF)
-        .row(-INF, 1.0, |x| x[1].clone() / square(&x[0]));
+    let ratio =
+        Sample::new(&[1.0, 1.0], |x| x[0].clone() - &x[1])
+            .bound(0, 0.001, INF)
+            .bound(1, 0.001, INF)
+            .row(-INF, 1.0, |x| x[1].clone() / square(&x[0]));
     assert_eq!(verdict(&ratio, Class::Nonlinear, 0).status, Status::Unbounded);
 }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
+use crate::input;
 use crate::model::{Class, Model, RibModel, Substitution, assemble};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -18,8 +19,17 @@ pub struct Subject {
     pub class: Class,
     /// Tolerances and limits: the file's, unless the command line changed them.
     pub settings: Settings,
+    /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
+    pub warnings: Vec<String>,
     problem: Arc<Problem>,
     model: RibModel,
+}
+
+/// As the result file lists it.
+fn mistake(mistake: &input::Mistake) -> Mistake {
+    let input::Mistake { file, line, column, message, help, .. } = mistake.clone();
+    let known = |number: usize| (number > 0).then_some(number);
+    Mistake { file: Some(file), line: known(line), column: known(column), message, help }
 }
 
 impl Subject {
@@ -28,8 +38,13 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let _ = (file, changes);
-        Err(RunError::Input("not yet".into(), Vec::new()))
+        let input = input::read_with(file, changes).map_err(|mistakes| {
+            let list = mistakes.list.iter().map(mistake).collect();
+            RunError::Input(mistakes.to_string(), list)
+        })?;
+        let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
+        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
+        Ok(subject)
     }
 
     /// Assembles a checked declaration that was read from `file`.
@@ -52,7 +67,7 @@ impl Subject {
             let mistake = Mistake { file: Some(about.file.clone()), ..Mistake::of_command(error.to_string()) };
             RunError::Input(format!("mistake: {error}\n--> {}", about.file), vec![mistake])
         })?;
-        Ok(Subject { about, class: Class::default(), settings: problem.settings.clone(), problem, model })
+        Ok(Subject { about, class: Class::default(), settings: problem.settings.clone(), warnings: Vec::new(), problem, model })
     }
 
     /// The problem in the user's variables, minimised.
