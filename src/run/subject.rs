@@ -25,13 +25,6 @@ pub struct Subject {
     model: RibModel,
 }
 
-/// As the result file lists it.
-fn mistake(mistake: &input::Mistake) -> Mistake {
-    let input::Mistake { file, line, column, message, help, .. } = mistake.clone();
-    let known = |number: usize| (number > 0).then_some(number);
-    Mistake { file: Some(file), line: known(line), column: known(column), message, help }
-}
-
 impl Subject {
     /// Reads a file with the changes of `--set`.
     ///
@@ -39,10 +32,10 @@ impl Subject {
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
         let input = input::read_with(file, changes).map_err(|mistakes| {
-            let list = mistakes.list.iter().map(mistake).collect();
+            let list = mistakes.list.iter().map(reported).collect();
             RunError::Input(mistakes.to_string(), list)
         })?;
-        let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
+        let mut subject = Subject::assemble(input.problem.without_kinks(), file, input.sha256)?;
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
         Ok(subject)
     }
@@ -110,4 +103,16 @@ impl Subject {
 fn volume_row(total: Total) -> Constraint {
     let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
     Constraint { name: String::new(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
+}
+
+/// A mistake of the reader as reports show it.
+fn reported(mistake: &input::Mistake) -> Mistake {
+    let place = |number: usize| (number > 0).then_some(number);
+    Mistake {
+        file: Some(mistake.file.clone()),
+        line: place(mistake.line),
+        column: place(mistake.column),
+        message: mistake.message.clone(),
+        help: mistake.help.clone(),
+    }
 }
