@@ -67,8 +67,7 @@ fn objective(top: &mut Fields, declared: &mut Declaration, reader: &mut Reader) 
         reader.findings.mistake(second.key_place, "two objectives", help);
     }
     let sense = if minimize.is_some() { Sense::Minimize } else { Sense::Maximize };
-    let written = minimize.or(maximize).and_then(|field| field.text(reader));
-    declared.objective = written.map(|written| (sense, written));
+    declared.objective = minimize.or(maximize).map(|field| (sense, field.text(reader)));
 }
 
 fn numbers(field: &Field, reader: &mut Reader) -> Option<Numbers> {

@@ -17,6 +17,8 @@ pub struct ItemScope {
     forms: BTreeSet<u16>,
     /// True where the rows are groups of items.
     pub grouped: bool,
+    /// The dimension whose expression this is: its name means the global one, as in `b = "b"`.
+    pub itself: Option<&'static str>,
 }
 
 impl ItemScope {
@@ -30,7 +32,7 @@ impl ItemScope {
                 ends.flatten().filter_map(|&s| form(s)).collect()
             }
         };
-        ItemScope { collection, members, forms, grouped: false }
+        ItemScope { collection, members, forms, grouped: false, itself: None }
     }
 
     /// The scope of every item.
