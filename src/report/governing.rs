@@ -56,7 +56,8 @@ impl Governing {
         let all = active.len();
         active.retain(|entry| entry.held.multiplier != 0.0);
         let (with_cost, without_cost) = (active.len(), all - active.len());
-        active.sort_by(|a, b| b.cost().total_cmp(&a.cost()));
+        // In single precision: costs that differ by rounding only keep the order of the file.
+        active.sort_by(|a, b| (b.cost() as f32).total_cmp(&(a.cost() as f32)));
         let groups = if with_cost > most { groups(findings, &active) } else { Vec::new() };
         let costliest = active.iter().take(most).map(|entry| entry.limit(findings)).collect();
         Governing { costliest, with_cost, without_cost, groups }

@@ -68,7 +68,15 @@ pub fn write_mistakes(message: &str, mistakes: &[Mistake], out: &mut dyn Write) 
     }
     let version = env!("CARGO_PKG_VERSION");
     let refused = Refused { format: FORMAT, version, status: "invalid-input", message, mistakes };
-    serde_json::to_writer_pretty(&mut *out, &refused)?;
+    write_value(&refused, out)
+}
+
+/// Writes any JSON value, indented.
+///
+/// # Errors
+/// Whatever the writer says.
+pub fn write_value(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
     out.write_all(b"\n")
 }
 
