@@ -191,8 +191,8 @@ fn limit_row(limit: &Limit, objective: f64) -> Vec<String> {
 }
 
 fn group_row(group: &Group, objective: f64) -> Vec<String> {
-    let change = significant(group.per_cent, 5);
-    let share = share_text(group.per_cent / objective);
+    let change = if group.per_cent == 0.0 { f64::NAN } else { group.per_cent };
+    let (change, share) = (significant(change, 5), share_text(change / objective));
     vec![group.name.clone(), group.side.as_str().into(), group.count.to_string(), change, share]
 }
 
