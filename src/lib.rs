@@ -21,6 +21,7 @@
 pub mod backends;
 pub mod expression;
 pub mod linear_algebra;
+pub mod math;
 pub mod model;
 pub mod problem;
 pub mod sections;
