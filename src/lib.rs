@@ -25,3 +25,4 @@ pub mod math;
 pub mod model;
 pub mod problem;
 pub mod sections;
+pub mod splines;
