@@ -20,6 +20,7 @@
 
 pub mod backends;
 pub mod expression;
+pub mod geometry;
 pub mod linear_algebra;
 pub mod math;
 pub mod model;
