@@ -186,6 +186,9 @@ fn unary_shape(op: Unary, range: Interval) -> Shape {
         Unary::Tan if range.lower > -1.57 && range.upper < 1.57 => Shape::by_sign(range, rising(Concave), rising(Convex)),
         Unary::Sin if range.lower >= 0.0 && range.upper <= 3.141 => Shape::of(Concave, Slope::Mixed),
         Unary::Cos if range.lower >= -1.57 && range.upper <= 1.57 => Shape::of(Concave, Slope::Mixed),
+        // It falls as far as 1.4616… and rises from there.
+        Unary::LnGamma if range.lower >= 1.47 => rising(Convex),
+        Unary::LnGamma => Shape::of(Convex, Slope::Mixed),
         Unary::Sin | Unary::Cos | Unary::Tan => NO_SHAPE,
     }
 }
