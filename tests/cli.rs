@@ -145,7 +145,8 @@ fn json_is_the_only_thing_on_standard_output() {
 #[test]
 fn sensitivity_is_minus_the_multiplier_for_both_senses() {
     for (objective, sign) in [("minimize = \"x\"", 1.0), ("maximize = \"-x\"", -1.0)] {
-        let problem = format!("{objective}\n[variables]\nx = {{ lower = 0, upper = 9 }}\n[[constraints]]\nrequire = \"x >= 2\"\n");
+        let problem =
+            format!("{objective}\n[variables]\nx = {{ lower = 0, upper = 9 }}\n[[constraints]]\nrequire = \"x >= 2\"\n");
         let value = json(&ribopt(&folder(&problem), "solve rib.toml --json"));
         let row = &value["constraints"][0];
         let (multiplier, sensitivity) = (row["multiplier"].as_f64().unwrap(), row["sensitivity"].as_f64().unwrap());
@@ -177,7 +178,9 @@ fn mistakes_of_the_file_are_told_and_nothing_is_written() {
     assert_eq!((code(&output), value["status"].as_str()), (2, Some("invalid-input")));
     let mistakes = value["mistakes"].as_array().unwrap();
     assert_eq!(mistakes.len(), 2, "{value}");
-    assert!(mistakes.iter().all(|mistake| mistake["file"] == "rib.toml" && mistake["line"].is_u64() && mistake["column"].is_u64()));
+    assert!(
+        mistakes.iter().all(|mistake| mistake["file"] == "rib.toml" && mistake["line"].is_u64() && mistake["column"].is_u64())
+    );
     assert!(!folder.path().join("results").exists());
     assert!(err(&output).contains("rib.toml:"), "{}", err(&output));
 }
@@ -362,7 +365,9 @@ fn compare_shows_every_solver_and_draws_profiles() {
     let output = ribopt(&folder, "compare rib.toml --profile profile --max-seconds 20");
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert!(out(&output).contains("argmin interior-point"), "{}", out(&output));
-    for name in ["compare.csv", "profile-evaluations.csv", "profile-evaluations.svg", "profile-seconds.csv", "profile-seconds.svg"] {
+    for name in
+        ["compare.csv", "profile-evaluations.csv", "profile-evaluations.svg", "profile-seconds.csv", "profile-seconds.svg"]
+    {
         assert!(fs::metadata(folder.path().join("profile").join(name)).unwrap().len() > 0, "{name}");
     }
 }

@@ -244,19 +244,33 @@ impl Centreline {
         if anticlockwise { vec![right, backwards(left)] } else { vec![backwards(left), right] }
     }
 
-    /// Both sides of every segment must still run its way.
-    fn fold_over(&self, sides: &Sides, each: &[f64]) -> Result<(), PolylineError> {
+    /// How long the two sides of the outline are along each segment, linear in the thicknesses: a length and terms (segment, factor).
+    /// Where one is not positive the outline folds over.
+    pub fn sides_along(&self, stepped: bool) -> Vec<(f64, Vec<(usize, f64)>)> {
+        self.lengths(&self.sides(|_, _| stepped)).into_iter().map(|(_, length, terms)| (length, terms)).collect()
+    }
+
+    /// Segment, its length, and what its corners add on one side.
+    fn lengths(&self, sides: &Sides) -> Vec<(usize, f64, Vec<(usize, f64)>)> {
+        let mut found = Vec::new();
         for segment in 0..self.segments() {
-            let direction = unit(self.ends(segment));
+            let [x, y] = unit(self.ends(segment));
+            let along = |vertex: &OffsetVertex, sign: f64| vertex.terms.map(|(by, v)| (by, sign * (v[0] * x + v[1] * y)));
             for side in [&sides.left, &sides.right] {
                 let (Some(from), Some(to)) = (side[segment].last(), side[(segment + 1) % side.len()].first()) else { continue };
-                let (from, to) = (from.at(|k| each[k]), to.at(|k| each[k]));
-                if (to[0] - from[0]) * direction[0] + (to[1] - from[1]) * direction[1] <= 0.0 {
-                    return Err(PolylineError::FoldOver { segment: segment + 1 });
-                }
+                found.push((segment, self.segment_length(segment), [along(from, -1.0), along(to, 1.0)].concat()));
             }
         }
-        Ok(())
+        found
+    }
+
+    /// Both sides of every segment must still run its way.
+    fn fold_over(&self, sides: &Sides, each: &[f64]) -> Result<(), PolylineError> {
+        let lost = |terms: &[(usize, f64)]| terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
+        match self.lengths(sides).iter().find(|(_, length, terms)| length + lost(terms) <= 0.0) {
+            Some((segment, ..)) => Err(PolylineError::FoldOver { segment: segment + 1 }),
+            None => Ok(()),
+        }
     }
 }
 
