@@ -143,3 +143,71 @@ fn a_rectangle_in_closed_form() {
     assert_eq!((properties.wx(), properties.wy(), properties.angle), (18.0, 9.0, 0.0));
     assert_eq!(properties.principal, [54.0, 13.5]);
 }
+
+/// Values of sectionproperties and verdicts of GEOS, see tests/data/make_sections.py.
+#[derive(serde::Deserialize)]
+struct Reference {
+    polygons: Vec<Case>,
+    validity: Vec<Verdict>,
+}
+
+#[derive(serde::Deserialize)]
+struct Case {
+    outer: Vec<[f64; 2]>,
+    holes: Vec<Vec<[f64; 2]>>,
+    expected: Expected,
+}
+
+#[derive(serde::Deserialize)]
+struct Expected {
+    area: f64,
+    centroid: [f64; 2],
+    /// Ix, Iy, Ixy about the centroid.
+    moments: [f64; 3],
+    principal: [f64; 2],
+    /// Wx at the top and at the bottom, Wy at the right and at the left.
+    moduli: [f64; 4],
+}
+
+#[derive(serde::Deserialize)]
+struct Verdict {
+    ring: Vec<[f64; 2]>,
+    valid: bool,
+}
+
+fn reference() -> Reference {
+    serde_json::from_str(include_str!("../../../tests/data/sections.json")).unwrap()
+}
+
+#[test]
+fn properties_as_sectionproperties() {
+    for Case { outer, holes, expected } in reference().polygons {
+        let ours = Polygon::new(outer, holes).unwrap().properties();
+        let close = |ours: f64, theirs: f64, size: f64| assert!((ours - theirs).abs() <= 1e-8 * size, "{ours} {theirs}");
+        close(ours.area, expected.area, expected.area);
+        for d in 0..2 {
+            close(ours.centroid[d], expected.centroid[d], 1.0);
+            close(ours.principal[d], expected.principal[d], expected.principal[0]);
+        }
+        for (ours, theirs) in [ours.ix, ours.iy, ours.ixy].into_iter().zip(expected.moments) {
+            close(ours, theirs, expected.moments[0]);
+        }
+        for (ours, theirs) in [ours.wx_top, ours.wx_bottom, ours.wy_right, ours.wy_left].into_iter().zip(expected.moduli) {
+            close(ours, theirs, expected.moduli[0]);
+        }
+    }
+}
+
+#[test]
+fn validity_as_geos() {
+    for Verdict { ring, valid } in reference().validity {
+        match Polygon::new(ring.clone(), vec![]) {
+            Ok(_) => assert!(valid, "{ring:?}"),
+            // GEOS lets points repeat; here that is a mistake.
+            Err(error) => {
+                let repeats = error.defects.iter().any(|defect| matches!(defect, Defect::DuplicatePoints { .. }));
+                assert!(!valid || repeats, "{ring:?}: {error}");
+            }
+        }
+    }
+}
