@@ -21,6 +21,7 @@
 pub mod backends;
 pub mod expression;
 pub mod linear_algebra;
+pub mod mesh;
 pub mod model;
 pub mod problem;
 pub mod sections;
