@@ -214,9 +214,11 @@ impl QuadMesh {
         })
     }
 
-    /// The normal at `v`: the sum of the vector areas of its faces; not normalised, zero where they cancel.
-    pub fn normal_at(&self, v: u32) -> Vector {
-        self.spokes(v).map(|h| self.vector_area(h / 4)).sum()
+    /// The unit normal at `v`, the mean of its faces' by area; `None` where they cancel (to 1e−9) or there are none.
+    pub fn normal_at(&self, v: u32) -> Option<Vector> {
+        let areas = self.spokes(v).map(|h| self.vector_area(h / 4));
+        let (sum, size) = areas.fold((Vector::zeros(), 0.0), |(sum, size), area| (sum + area, size + area.norm()));
+        super::unit(sum).filter(|_| sum.norm() > 1e-9 * size)
     }
 
     /// The vector area of face `f`: half the cross product of its diagonals.

@@ -6,6 +6,7 @@
 //! In messages, tables and reports faces and vertices are counted from 1, as OBJ counts them; in the code from 0.
 
 pub mod boundary;
+pub mod closest;
 pub mod defects;
 pub mod edge_list;
 pub mod formats;
@@ -14,6 +15,8 @@ mod half_edge;
 pub mod invariants;
 mod polygon_mesh;
 pub mod quality;
+pub mod stations;
+pub mod trace;
 pub mod weld;
 
 pub use defects::{Defect, Defects};
