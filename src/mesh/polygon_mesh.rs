@@ -86,9 +86,24 @@ impl PolygonMesh {
         (0..face.len()).map(move |k| (at(k), at(k + 1)))
     }
 
-    /// Every face as triangles: a fan from its first corner, `[a, b, c]` with the face's number.
+    /// Every face as a fan of triangles, with the face's number: quads from an end of their shorter diagonal, so that the
+    /// triangles do not depend on where the file begins a face; larger faces from their first corner.
     pub fn fans(&self) -> impl Iterator<Item = (usize, [u32; 3])> {
-        self.faces().enumerate().flat_map(|(f, face)| face.windows(2).skip(1).map(move |w| (f, [face[0], w[0], w[1]])))
+        let fan = |f: usize| {
+            let mut face = self.face(f).to_vec();
+            face.rotate_left(self.fan_start(f));
+            let triangles: Vec<[u32; 3]> = face.windows(2).skip(1).map(|pair| [face[0], pair[0], pair[1]]).collect();
+            triangles.into_iter().map(move |triangle| (f, triangle))
+        };
+        (0..self.face_count()).flat_map(fan)
+    }
+
+    fn fan_start(&self, f: usize) -> usize {
+        let points: Vec<Vector> = self.points(f).collect();
+        match points[..] {
+            [a, b, c, d] => usize::from((d - b).norm_squared() < (c - a).norm_squared()),
+            _ => 0,
+        }
     }
 }
 
