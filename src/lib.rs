@@ -19,9 +19,19 @@
 #![warn(missing_docs)]
 
 pub mod backends;
+pub mod certificate;
+pub mod crosscheck;
 pub mod expression;
+pub mod geometry;
+pub mod input;
 pub mod linear_algebra;
+pub mod log;
+pub mod math;
 pub mod mesh;
 pub mod model;
 pub mod problem;
+pub mod report;
+pub mod ribs;
+pub mod run;
 pub mod sections;
+pub mod splines;

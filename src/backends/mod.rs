@@ -1,5 +1,9 @@
 //! Solvers behind one trait. A backend's own word is text to show, never a verdict: points are judged elsewhere.
 
+pub mod argmin;
+#[cfg(feature = "nlopt")]
+pub mod nlopt;
+
 use crate::model::{Budget, Model};
 
 /// One solver family.
@@ -16,6 +20,9 @@ pub trait Backend: Sync {
     /// Minimises the model. Never panics; failures are solutions with a termination that says so.
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution;
 }
+
+/// Says whether a point passes the certificate.
+pub type StopTest<'a> = &'a (dyn Fn(&[f64]) -> bool + Sync);
 
 /// What a backend is asked to do.
 pub struct Job<'a> {
@@ -36,7 +43,7 @@ pub struct Job<'a> {
     /// Evaluations, deadline, Ctrl-C.
     pub budget: Budget<'a>,
     /// True once a point passes the certificate: foreign solvers may stop there.
-    pub stop_test: Option<&'a (dyn Fn(&[f64]) -> bool + Sync)>,
+    pub stop_test: Option<StopTest<'a>>,
     /// Called with every iteration (or, where a solver shows none, every improving evaluation).
     pub observer: &'a mut dyn FnMut(&Iteration<'_>),
 }

@@ -1,6 +1,6 @@
 //! Hash-consed expression graphs: equal subexpressions are one node, constants fold, neutral elements vanish.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::operators::{Binary, Unary};
 
@@ -20,6 +20,18 @@ pub enum Node {
     Unary(Unary, NodeId),
     /// An operator on two nodes.
     Binary(Binary, NodeId, NodeId),
+}
+
+impl Node {
+    /// The nodes it works on: none, one or two.
+    pub fn operands(self) -> impl Iterator<Item = NodeId> {
+        let (left, right) = match self {
+            Node::Constant(_) | Node::Input(_) | Node::Data(_) => (None, None),
+            Node::Unary(_, operand) => (Some(operand), None),
+            Node::Binary(_, left, right) => (Some(left), Some(right)),
+        };
+        left.into_iter().chain(right)
+    }
 }
 
 #[derive(PartialEq, Eq, Hash)]
@@ -57,6 +69,18 @@ impl Graph {
     /// True where nothing was built yet.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
+    }
+
+    /// A node and all it is made of, operands before uses. Costs what it returns, not the size of the graph.
+    pub fn below(&self, root: NodeId) -> Vec<NodeId> {
+        let mut found = HashSet::from([root]);
+        let mut stack = vec![root];
+        while let Some(node) = stack.pop() {
+            stack.extend(self.node(node).operands().filter(|&operand| found.insert(operand)));
+        }
+        let mut nodes: Vec<NodeId> = found.into_iter().collect();
+        nodes.sort_unstable(); // operands have smaller numbers
+        nodes
     }
 
     /// The node's number, if it is a constant.
@@ -157,6 +181,21 @@ impl Graph {
             _ => (left, right),
         };
         self.intern(Key::Binary(op, left, right), Node::Binary(op, left, right))
+    }
+
+    /// The value of a node for these inputs and data.
+    pub fn evaluate(&self, root: NodeId, inputs: &[f64], data: &[f64]) -> f64 {
+        let mut values: Vec<f64> = Vec::with_capacity(root as usize + 1);
+        for node in &self.nodes[..=root as usize] {
+            values.push(match *node {
+                Node::Constant(value) => value,
+                Node::Input(slot) => inputs.get(slot as usize).copied().unwrap_or(f64::NAN),
+                Node::Data(slot) => data.get(slot as usize).copied().unwrap_or(f64::NAN),
+                Node::Unary(op, inner) => op.evaluate(values[inner as usize]),
+                Node::Binary(op, left, right) => op.evaluate(values[left as usize], values[right as usize]),
+            });
+        }
+        values[root as usize]
     }
 
     fn intern(&mut self, key: Key, node: Node) -> NodeId {

@@ -4,8 +4,17 @@
 //! (value, exact gradient and Hessian over a few inputs).
 
 pub mod ast;
+pub mod degree;
+pub mod display;
 pub mod graph;
+pub mod kernel;
+mod lexer;
 pub mod operators;
+pub mod parse;
+pub mod structure;
+pub mod substitute;
+pub mod tape;
+pub mod terms;
 
 /// A range of bytes in the text of one expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -60,6 +60,24 @@ pub enum Comparison {
 }
 
 impl Unary {
+    /// The functions by the names users write.
+    pub const NAMED: [(&'static str, Unary); 14] = [
+        ("sqrt", Unary::Sqrt),
+        ("exp", Unary::Exp),
+        ("log", Unary::Log),
+        ("log10", Unary::Log10),
+        ("sin", Unary::Sin),
+        ("cos", Unary::Cos),
+        ("tan", Unary::Tan),
+        ("asin", Unary::Asin),
+        ("acos", Unary::Acos),
+        ("atan", Unary::Atan),
+        ("sinh", Unary::Sinh),
+        ("cosh", Unary::Cosh),
+        ("tanh", Unary::Tanh),
+        ("abs", Unary::Abs),
+    ];
+
     /// The value, by IEEE rules (NaN outside the domain).
     pub fn evaluate(self, x: f64) -> f64 {
         match self {

@@ -3,13 +3,36 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+mod assemble;
+mod assembled;
+pub mod augmented;
+pub mod bounds_only;
+pub mod class;
+pub mod derivative_check;
+pub mod differences;
+pub mod elastic;
+mod elements;
 pub mod evaluator;
+#[cfg(test)]
+pub mod handmade;
+pub mod logarithmic;
 pub mod pattern;
+pub mod rebounded;
+#[cfg(test)]
+pub(crate) mod sample;
+pub mod scaled;
+pub mod substitution;
 
 use thiserror::Error;
 
+pub use assemble::{AssemblyError, assemble};
+pub use assembled::{RibModel, RowOrigin};
+pub use class::Class;
+pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
+pub use rebounded::Rebounded;
+pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.
 #[derive(Debug, Clone, Default)]

@@ -16,10 +16,8 @@ impl Default for Pattern {
 }
 
 impl Pattern {
-    /// The pattern of `rows` rows with these positions, in any order, repeats allowed.
+    /// The pattern of `rows` rows with these positions, in any order, repeats allowed; the list is emptied.
     pub fn from_positions(rows: usize, positions: &mut Vec<(u32, u32)>) -> Pattern {
-        positions.sort_unstable();
-        positions.dedup();
         let mut offsets = vec![0; rows + 1];
         for &(row, _) in positions.iter() {
             offsets[row as usize + 1] += 1;
@@ -27,7 +25,34 @@ impl Pattern {
         for row in 0..rows {
             offsets[row + 1] += offsets[row];
         }
-        Pattern { offsets, columns: positions.iter().map(|&(_, column)| column).collect() }
+        let mut next = offsets.clone();
+        let mut columns = vec![0; positions.len()];
+        for (row, column) in positions.drain(..) {
+            columns[next[row as usize]] = column;
+            next[row as usize] += 1;
+        }
+        Pattern { offsets, columns }.sorted()
+    }
+
+    /// Sorts each row and drops repeats.
+    fn sorted(mut self) -> Pattern {
+        let (mut kept, mut begin) = (0, 0);
+        for row in 0..self.rows() {
+            let end = self.offsets[row + 1];
+            self.columns[begin..end].sort_unstable();
+            let first = kept;
+            for at in begin..end {
+                if kept == first || self.columns[kept - 1] != self.columns[at] {
+                    self.columns[kept] = self.columns[at];
+                    kept += 1;
+                }
+            }
+            begin = end;
+            self.offsets[row + 1] = kept;
+        }
+        self.columns.truncate(kept);
+        self.columns.shrink_to_fit();
+        self
     }
 
     /// Number of rows.
@@ -81,5 +106,26 @@ impl Pattern {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_sorted_and_repeats_dropped() {
+        let pattern = Pattern::from_positions(3, &mut vec![(2, 1), (0, 4), (2, 0), (0, 4), (2, 1)]);
+        assert_eq!(pattern.iter().collect::<Vec<_>>(), [(0, 4), (2, 0), (2, 1)]);
+        assert_eq!((pattern.rows(), pattern.len(), pattern.position(2, 1), pattern.position(1, 1)), (3, 3, Some(2), None));
+    }
+
+    #[test]
+    fn products_with_the_matrix_and_its_transpose() {
+        let pattern = Pattern::from_positions(2, &mut vec![(0, 0), (0, 2), (1, 1)]);
+        let (values, mut y, mut x) = ([1.0, 2.0, 3.0], [0.0; 2], [0.0; 3]);
+        pattern.multiply(&values, &[1.0, 10.0, 100.0], &mut y);
+        pattern.add_transposed(&values, &[1.0, 10.0], &mut x);
+        assert_eq!((y, x), ([201.0, 30.0], [1.0, 30.0, 2.0]));
     }
 }

@@ -2,13 +2,24 @@
 //!
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
+pub mod cells;
+mod collections;
+pub mod evaluate;
 pub mod formula;
+pub mod kinks;
+pub mod mentions;
+pub mod names;
+pub(crate) mod nearest;
+pub mod order;
+pub mod pattern;
+pub mod resolve;
 pub mod settings;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::sections;
+pub use collections::sections_form;
 pub use formula::{Formula, Property};
 pub use settings::Settings;
 
@@ -43,6 +54,17 @@ pub struct Problem {
     pub warnings: Vec<String>,
 }
 
+impl Scope {
+    /// How many rows it makes (before min, max and abs split any).
+    pub fn rows(&self) -> usize {
+        match self {
+            Scope::Once => 1,
+            Scope::Sections(items) | Scope::Ribs(items) => items.len(),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => groups.len(),
+        }
+    }
+}
+
 impl Problem {
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
     pub fn variable_name(&self, j: usize) -> String {
@@ -54,6 +76,22 @@ impl Problem {
                 format!("{}.{}", self.sections.names[section as usize], form.dimensions[position as usize])
             }
         }
+    }
+
+    /// The name of the row that constraint `c` states for its item number `item`: `sag`, `sag[L0]`.
+    pub fn row_name(&self, c: usize, item: usize) -> String {
+        let Constraint { name, scope, .. } = &self.constraints[c];
+        match scope {
+            Scope::Once => name.clone(),
+            Scope::Sections(items) => format!("{name}[{}]", self.sections.names[items[item] as usize]),
+            Scope::Ribs(items) => format!("{name}[{}]", self.ribs.names[items[item] as usize]),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => format!("{name}[{}]", groups[item].0),
+        }
+    }
+
+    /// The points of a section drawn by points; empty for others.
+    pub fn outline(&self, section: u32) -> &[[f64; 2]] {
+        self.sections.outlines.get(&section).map_or(&[], |points| points.as_slice())
     }
 
     /// The dimensions of section `s`, in the order of its form's names.
@@ -152,6 +190,21 @@ pub enum VolumeLaw {
     Frustum,
     /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
     Prismatoid,
+}
+
+impl VolumeLaw {
+    /// The law's name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            VolumeLaw::Frustum => "frustum",
+            VolumeLaw::Prismatoid => "prismatoid",
+        }
+    }
+
+    /// The law of this name.
+    pub fn named(name: &str) -> Option<VolumeLaw> {
+        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().find(|law| law.name() == name)
+    }
 }
 
 /// One data column of sections or ribs.

@@ -1,5 +1,15 @@
 //! `[solver]`: what is accepted, and when to give up. fmincon's names and defaults where it has them.
 
+/// Backends by name, built in or not.
+pub const BACKENDS: &[&str] = &["nlopt", "argmin"];
+
+/// Names of NLopt's algorithms in files and on the command line.
+pub const NLOPT_ALGORITHMS: &[&str] =
+    &["auto", "slsqp", "mma", "ccsaq", "auglag", "lbfgs", "tnewton", "var2", "cobyla", "bobyqa", "isres", "mlsl"];
+
+/// Names of the algorithms run by argmin.
+pub const ARGMIN_ALGORITHMS: &[&str] = &["auto", "interior-point", "augmented-lagrangian"];
+
 /// The settings of one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {

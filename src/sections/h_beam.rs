@@ -2,7 +2,7 @@
 //!
 //! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
 
-use super::{Form, Given, Kind};
+use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
 
@@ -18,7 +18,17 @@ static FORMS: &[Form] = &[
     Form { kind: "h-beam", dimensions: &["b1", "b2", "t", "h2"] },
 ];
 
-/// The four lengths every formula is written in.
+/// Web and flanges of each form, in its dimensions.
+static PARTS: [[[Length; 2]; 2]; 6] = [
+    [[Length::of(0), Length::of(1)], [Length::of(2), Length::twice(3)]],
+    [[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
+    [[Length::of(0), Length::difference(3, 2.0, 2)], [Length::of(1), Length::twice(2)]],
+    [[Length::of(0), Length::of(1)], [Length::of(2), Length::of(3)]],
+    [[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
+    [[Length::of(0), Length::difference(3, 1.0, 2)], [Length::of(1), Length::of(2)]],
+];
+
+/// The five lengths every formula is written in.
 struct Shape {
     tw: NodeId,
     hw: NodeId,
@@ -113,6 +123,10 @@ impl Kind for HBeam {
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         let shape = Shape::of(graph, given);
         vec![graph.multiply(shape.tw, shape.hw), graph.multiply(shape.b, shape.t)]
+    }
+
+    fn part_factors(&self, form: &Form) -> &'static [[Length; 2]] {
+        FORMS.iter().position(|known| known == form).map_or(&[], |at| &PARTS[at])
     }
 
     fn positive(&self) -> &'static [&'static str] {

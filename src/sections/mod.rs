@@ -27,6 +27,34 @@ pub struct Form {
     pub dimensions: &'static [&'static str],
 }
 
+/// A length made of a form's dimensions d: `scale · (d[plus] − factor · d[minus])`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Length {
+    /// What the whole is multiplied by.
+    pub scale: f64,
+    /// Position of the first dimension.
+    pub plus: usize,
+    /// Factor and position of the dimension taken off. Only the second length of a part may have one.
+    pub minus: Option<(f64, usize)>,
+}
+
+impl Length {
+    /// The dimension at this position.
+    pub const fn of(plus: usize) -> Length {
+        Length { scale: 1.0, plus, minus: None }
+    }
+
+    /// Twice the dimension at this position.
+    pub const fn twice(plus: usize) -> Length {
+        Length { scale: 2.0, plus, minus: None }
+    }
+
+    /// The dimension at `plus` less `factor` times the one at `minus`.
+    pub const fn difference(plus: usize, factor: f64, minus: usize) -> Length {
+        Length { scale: 1.0, plus, minus: Some((factor, minus)) }
+    }
+}
+
 /// A kind of cross-section.
 pub trait Kind: Sync {
     /// Its name in files: `h-beam`.
@@ -43,6 +71,13 @@ pub trait Kind: Sync {
 
     /// The areas of the parts whose frusta make up a rib's volume: the whole area, or web and flanges.
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId>;
+
+    /// The same parts as products of two lengths, in the form's dimensions, where they are that: ribs between such sections
+    /// have their volume in closed form. Empty where they are not.
+    fn part_factors(&self, form: &Form) -> &'static [[Length; 2]] {
+        let _ = form;
+        &[]
+    }
 
     /// Dimensions (by property name) that must stay positive for the section to exist, besides the given ones: `tf` of an H beam.
     fn positive(&self) -> &'static [&'static str] {

@@ -1,6 +1,6 @@
 //! `rectangle`: width b, height h.
 
-use super::{Form, Given, Kind};
+use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 
 /// The rectangle b × h.
@@ -37,6 +37,11 @@ impl Kind for Rectangle {
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         vec![graph.multiply(given.dimensions[0], given.dimensions[1])]
+    }
+
+    fn part_factors(&self, _: &Form) -> &'static [[Length; 2]] {
+        const WHOLE: &[[Length; 2]] = &[[Length::of(0), Length::of(1)]];
+        WHOLE
     }
 
     fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {

@@ -1,0 +1,297 @@
+//! The form the interior point works on: min f(w) subject to g(w) = 0, l ≤ w ≤ u, scaled.
+//!
+//! w holds the variables that are not fixed, then one slack per inequality row; g is `c(x) − limit` for an equality and
+//! `c(x) − s` for an inequality. Rows without any limit and fixed variables are gone. Variables are scaled by powers of
+//! two, so that bounds survive the way there and back bit for bit.
+
+use std::ops::Deref;
+
+use super::scaling;
+use crate::model::{EvaluationError, Model, Pattern};
+
+/// A model given, or made for the purpose (the restoration's).
+pub(super) enum Source<'a> {
+    Given(&'a dyn Model),
+    Own(Box<dyn Model + 'a>),
+}
+
+impl<'a> Deref for Source<'a> {
+    type Target = dyn Model + 'a;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Source::Given(model) => *model,
+            Source::Own(model) => model.as_ref(),
+        }
+    }
+}
+
+/// One value of a derivative: where it stands in the model's pattern, and its scale.
+struct Entry {
+    source: usize,
+    factor: f64,
+}
+
+/// The problem in the interior point's form, with room for one evaluation.
+pub(super) struct Form<'a> {
+    pub model: Source<'a>,
+    /// The model's number of each variable of w.
+    pub free: Vec<usize>,
+    /// The model's number of each row of g.
+    pub rows: Vec<usize>,
+    /// The slack (an index into w) of each row, none for an equality.
+    pub slack: Vec<Option<usize>>,
+    /// Bounds of w, scaled.
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+    /// x = variable_scale·w, c scaled = row_scale·c, f scaled = objective_scale·f.
+    pub variable_scale: Vec<f64>,
+    pub row_scale: Vec<f64>,
+    pub objective_scale: f64,
+    /// Columns below the number of free variables; slacks are not in it.
+    pub jacobian: Pattern,
+    pub hessian: Pattern,
+    jacobian_entries: Vec<Entry>,
+    hessian_entries: Vec<Entry>,
+    x: Vec<f64>,
+    gradient_values: Vec<f64>,
+    row_values: Vec<f64>,
+    jacobian_values: Vec<f64>,
+    hessian_values: Vec<f64>,
+    multipliers: Vec<f64>,
+}
+
+impl<'a> Form<'a> {
+    /// The form of `model`, variables scaled by the magnitude of `start`, rows and objective not yet.
+    pub fn new(model: Source<'a>, start: &[f64]) -> Self {
+        let meta = model.meta();
+        let free: Vec<usize> = (0..meta.variables()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
+        let rows: Vec<usize> =
+            (0..meta.rows()).filter(|&i| meta.row_lower[i].is_finite() || meta.row_upper[i].is_finite()).collect();
+        let mut inequalities = free.len()..;
+        let slack: Vec<Option<usize>> =
+            rows.iter().map(|&i| (meta.row_lower[i] != meta.row_upper[i]).then(|| inequalities.next()).flatten()).collect();
+        let variable_scale: Vec<f64> =
+            free.iter().map(|&j| scaling::variable_scale(start[j], meta.lower[j], meta.upper[j])).collect();
+        let (jacobian, jacobian_entries) = select_jacobian(&meta.jacobian, &rows, &free, meta.variables());
+        let (hessian, hessian_entries) = select_hessian(&meta.hessian, &free, meta.variables());
+        let mut x = start.to_vec();
+        for (j, x) in x.iter_mut().enumerate() {
+            *x = x.min(meta.upper[j]).max(meta.lower[j]);
+        }
+        let (n, m) = (meta.variables(), meta.rows());
+        let (jacobian_size, hessian_size) = (meta.jacobian.len(), meta.hessian.len());
+        let mut form = Form {
+            row_scale: vec![1.0; rows.len()],
+            objective_scale: 1.0,
+            lower: Vec::new(),
+            upper: Vec::new(),
+            free,
+            rows,
+            slack,
+            variable_scale,
+            jacobian,
+            hessian,
+            jacobian_entries,
+            hessian_entries,
+            x,
+            gradient_values: vec![0.0; n],
+            row_values: vec![0.0; m],
+            jacobian_values: vec![0.0; jacobian_size],
+            hessian_values: vec![0.0; hessian_size],
+            multipliers: vec![0.0; m],
+            model,
+        };
+        form.apply_scales();
+        form
+    }
+
+    /// Takes these scales of objective and rows.
+    pub fn rescale(&mut self, objective_scale: f64, row_scale: Vec<f64>) {
+        self.objective_scale = objective_scale;
+        self.row_scale = row_scale;
+        self.apply_scales();
+    }
+
+    /// Bounds and derivative factors that follow from the scales.
+    fn apply_scales(&mut self) {
+        let meta = self.model.meta();
+        let scaled = |limits: &[f64]| self.free.iter().zip(&self.variable_scale).map(|(&j, d)| limits[j] / d).collect();
+        let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (scaled(&meta.lower), scaled(&meta.upper));
+        for (i, _) in self.slack.iter().enumerate().filter(|(_, slack)| slack.is_some()) {
+            lower.push(meta.row_lower[self.rows[i]] * self.row_scale[i]);
+            upper.push(meta.row_upper[self.rows[i]] * self.row_scale[i]);
+        }
+        for i in 0..self.rows.len() {
+            for at in self.jacobian.range(i) {
+                let column = self.jacobian.columns[at] as usize;
+                self.jacobian_entries[at].factor = self.row_scale[i] * self.variable_scale[column];
+            }
+        }
+        for row in 0..self.free.len() {
+            for at in self.hessian.range(row) {
+                let column = self.hessian.columns[at] as usize;
+                self.hessian_entries[at].factor = self.variable_scale[row] * self.variable_scale[column];
+            }
+        }
+        (self.lower, self.upper) = (lower, upper);
+    }
+
+    /// Number of variables that are not fixed.
+    pub fn variables(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Variables and slacks: the length of w.
+    pub fn size(&self) -> usize {
+        self.lower.len()
+    }
+
+    /// The model's x at w.
+    pub fn x(&mut self, w: &[f64]) -> &[f64] {
+        let meta = self.model.meta();
+        for ((&j, scale), w) in self.free.iter().zip(&self.variable_scale).zip(w) {
+            self.x[j] = (w * scale).min(meta.upper[j]).max(meta.lower[j]);
+        }
+        &self.x
+    }
+
+    /// Takes w off bounds it was rounded onto: the barrier needs the strict interior.
+    pub fn keep_inside(&self, w: &mut [f64]) {
+        for ((w, &lower), &upper) in w.iter_mut().zip(&self.lower).zip(&self.upper) {
+            if *w <= lower {
+                *w = lower.next_up();
+            }
+            if *w >= upper {
+                *w = upper.next_down();
+            }
+        }
+    }
+
+    /// Scaled f and the scaled values of the kept rows, slacks left out of account.
+    pub fn values(&mut self, w: &[f64], rows: &mut [f64]) -> Result<f64, EvaluationError> {
+        self.x(w);
+        let objective = self.model.objective(&self.x)?;
+        self.rows_at_x(rows)?;
+        Ok(self.objective_scale * objective)
+    }
+
+    /// Scaled row values, scaled gradient (length [`Form::variables`]), Jacobian values. Returns scaled f.
+    pub fn first_order(
+        &mut self,
+        w: &[f64],
+        rows: &mut [f64],
+        gradient: &mut [f64],
+        jacobian: &mut [f64],
+    ) -> Result<f64, EvaluationError> {
+        self.x(w);
+        let objective = self.model.gradient(&self.x, &mut self.gradient_values)?;
+        for ((gradient, &j), scale) in gradient.iter_mut().zip(&self.free).zip(&self.variable_scale) {
+            *gradient = self.gradient_values[j] * scale * self.objective_scale;
+        }
+        self.rows_at_x(rows)?;
+        if !self.rows.is_empty() {
+            self.model.jacobian(&self.x, &mut self.jacobian_values)?;
+        }
+        for (value, entry) in jacobian.iter_mut().zip(&self.jacobian_entries) {
+            *value = self.jacobian_values[entry.source] * entry.factor;
+        }
+        Ok(self.objective_scale * objective)
+    }
+
+    fn rows_at_x(&mut self, rows: &mut [f64]) -> Result<(), EvaluationError> {
+        if self.rows.is_empty() {
+            return Ok(());
+        }
+        self.model.constraints(&self.x, &mut self.row_values)?;
+        for ((value, &i), scale) in rows.iter_mut().zip(&self.rows).zip(&self.row_scale) {
+            *value = self.row_values[i] * scale;
+        }
+        Ok(())
+    }
+
+    /// The scaled Hessian of the Lagrangian (objective weight 1) at w for scaled multipliers.
+    pub fn hessian(&mut self, w: &[f64], y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.x(w);
+        for ((&i, scale), y) in self.rows.iter().zip(&self.row_scale).zip(y) {
+            self.multipliers[i] = y * scale;
+        }
+        self.model.hessian(&self.x, self.objective_scale, &self.multipliers, &mut self.hessian_values)?;
+        for (value, entry) in values.iter_mut().zip(&self.hessian_entries) {
+            *value = self.hessian_values[entry.source] * entry.factor;
+        }
+        Ok(())
+    }
+
+    /// g from the rows' values: less the limit of an equality, less the slack of an inequality.
+    pub fn residual(&self, w: &[f64], rows: &[f64], residual: &mut [f64]) {
+        let meta = self.model.meta();
+        for (i, residual) in residual.iter_mut().enumerate() {
+            let target = match self.slack[i] {
+                Some(slack) => w[slack],
+                None => meta.row_lower[self.rows[i]] * self.row_scale[i],
+            };
+            *residual = rows[i] - target;
+        }
+    }
+
+    /// The largest violation of rows, in the user's units, from scaled row values. (Bounds always hold.)
+    pub fn violation(&self, rows: &[f64]) -> f64 {
+        let meta = self.model.meta();
+        let beyond = |i: usize| {
+            let value = rows[i] / self.row_scale[i];
+            (meta.row_lower[self.rows[i]] - value).max(value - meta.row_upper[self.rows[i]]).max(0.0)
+        };
+        (0..self.rows.len()).map(beyond).fold(0.0, f64::max)
+    }
+
+    /// The largest violation of the rows by scaled values, relative to the limits where those are large.
+    pub fn scaled_violation(&self, rows: &[f64]) -> f64 {
+        let meta = self.model.meta();
+        let beyond = |i: usize| {
+            let scale = self.row_scale[i];
+            let (lower, upper) = (meta.row_lower[self.rows[i]] * scale, meta.row_upper[self.rows[i]] * scale);
+            let (below, above) = (lower - rows[i], rows[i] - upper);
+            (below / lower.abs().max(1.0)).max(above / upper.abs().max(1.0)).max(0.0)
+        };
+        (0..self.rows.len()).map(beyond).fold(0.0, f64::max)
+    }
+
+    /// The model's row multipliers from scaled ones.
+    pub fn multipliers(&self, y: &[f64]) -> Vec<f64> {
+        let mut multipliers = vec![0.0; self.model.meta().rows()];
+        for ((&i, scale), y) in self.rows.iter().zip(&self.row_scale).zip(y) {
+            multipliers[i] = y * scale / self.objective_scale;
+        }
+        multipliers
+    }
+}
+
+/// Which free variable each model variable is.
+fn positions(free: &[usize], variables: usize) -> Vec<Option<u32>> {
+    let mut position = vec![None; variables];
+    for (at, &j) in free.iter().enumerate() {
+        position[j] = Some(at as u32);
+    }
+    position
+}
+
+fn select_jacobian(pattern: &Pattern, rows: &[usize], free: &[usize], variables: usize) -> (Pattern, Vec<Entry>) {
+    let position = positions(free, variables);
+    let (mut selected, mut entries) = (Pattern::default(), Vec::new());
+    for &row in rows {
+        for source in pattern.range(row) {
+            if let Some(column) = position[pattern.columns[source] as usize] {
+                selected.columns.push(column);
+                entries.push(Entry { source, factor: 1.0 });
+            }
+        }
+        selected.offsets.push(selected.columns.len());
+    }
+    (selected, entries)
+}
+
+fn select_hessian(pattern: &Pattern, free: &[usize], variables: usize) -> (Pattern, Vec<Entry>) {
+    // Free variables keep their order, so the lower triangle of the selection is the selection of the lower triangle.
+    select_jacobian(pattern, free, free, variables)
+}

@@ -1,0 +1,182 @@
+//! The KKT system of one Newton step, slacks eliminated, with inertia correction.
+//!
+//! ```text
+//! [ W + Σ_x + δ_w   Aᵀ              ] [ dx ]   [ r_x             ]
+//! [ A               −(1/D + δ_c)    ] [ dy ] = [ r_g + r_s/D     ]     D = Σ_s + δ_w (no 1/D for an equality)
+//! ```
+//! Inertia (n, m, 0) makes dx a descent direction: Wächter & Biegler (2006), §3.1, Algorithm IC.
+
+use super::form::Form;
+use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
+use crate::model::Pattern;
+
+/// Bounds and factors of δ_w: Algorithm IC's δ̄_min, δ̄_0, δ̄_max, κ⁻, κ⁺, κ̄⁺ and δ̄_c.
+const SMALLEST: f64 = 1e-20;
+const FIRST: f64 = 1e-4;
+const LARGEST: f64 = 1e20;
+const DECREASE: f64 = 1.0 / 3.0;
+const INCREASE: f64 = 8.0;
+const FIRST_INCREASE: f64 = 100.0;
+const DUAL_REGULARISATION: f64 = 1e-8;
+
+/// Matrix, factors and the memory of earlier corrections.
+pub(super) struct Kkt {
+    solver: SymmetricSolver,
+    values: Vec<f64>,
+    hessian_places: Vec<usize>,
+    jacobian_places: Vec<usize>,
+    diagonal_places: Vec<usize>,
+    /// Slack of each row.
+    slack: Vec<Option<usize>>,
+    variables: usize,
+    /// D of each row with a slack, of the matrix factorised last.
+    slack_diagonal: Vec<f64>,
+    last_correction: f64,
+    /// δ_w of the matrix factorised last.
+    pub correction: f64,
+    /// Whether the Jacobian seemed to have dependent rows.
+    pub dependent: bool,
+    right: Vec<f64>,
+    solution: Vec<f64>,
+}
+
+/// The values a KKT matrix is made of.
+#[derive(Clone, Copy)]
+pub(super) struct Blocks<'b> {
+    /// Along [`Form::hessian`].
+    pub hessian: &'b [f64],
+    /// Along [`Form::jacobian`].
+    pub jacobian: &'b [f64],
+    /// Σ, for variables and slacks.
+    pub sigma: &'b [f64],
+}
+
+/// Right-hand sides, or the steps they lead to: of w (variables, then slacks) and of the rows.
+pub(super) struct Sides<'s> {
+    pub w: &'s [f64],
+    pub rows: &'s [f64],
+}
+
+impl Kkt {
+    /// Analyses the pattern.
+    pub fn new(form: &Form<'_>) -> Result<Self, FactorizationError> {
+        let (n, m) = (form.variables(), form.rows.len());
+        let mut pattern = Pattern::default();
+        let (mut hessian_places, mut jacobian_places, mut diagonal_places) = (Vec::new(), Vec::new(), Vec::new());
+        for row in 0..n {
+            for &column in form.hessian.row(row).iter().filter(|&&column| (column as usize) < row) {
+                hessian_places.push(pattern.columns.len());
+                pattern.columns.push(column);
+            }
+            if form.hessian.row(row).last() == Some(&(row as u32)) {
+                hessian_places.push(pattern.columns.len());
+            }
+            diagonal_places.push(pattern.columns.len());
+            pattern.columns.push(row as u32);
+            pattern.offsets.push(pattern.columns.len());
+        }
+        for row in 0..m {
+            for &column in form.jacobian.row(row) {
+                jacobian_places.push(pattern.columns.len());
+                pattern.columns.push(column);
+            }
+            diagonal_places.push(pattern.columns.len());
+            pattern.columns.push((n + row) as u32);
+            pattern.offsets.push(pattern.columns.len());
+        }
+        Ok(Kkt {
+            solver: SymmetricSolver::new(&pattern.offsets, &pattern.columns)?,
+            values: vec![0.0; pattern.len()],
+            hessian_places,
+            jacobian_places,
+            diagonal_places,
+            slack: form.slack.clone(),
+            variables: n,
+            slack_diagonal: vec![0.0; m],
+            last_correction: 0.0,
+            correction: 0.0,
+            dependent: false,
+            right: vec![0.0; n + m],
+            solution: vec![0.0; n + m],
+        })
+    }
+
+    /// Factorises with the corrections δ_w and δ_c.
+    pub fn factor(&mut self, blocks: Blocks<'_>, primal: f64, dual: f64) -> Result<Inertia, FactorizationError> {
+        self.values.fill(0.0);
+        for (&place, value) in self.hessian_places.iter().zip(blocks.hessian) {
+            self.values[place] += value;
+        }
+        for (&place, value) in self.jacobian_places.iter().zip(blocks.jacobian) {
+            self.values[place] = *value;
+        }
+        for (j, &place) in self.diagonal_places[..self.variables].iter().enumerate() {
+            self.values[place] += blocks.sigma[j] + primal;
+        }
+        for (i, &place) in self.diagonal_places[self.variables..].iter().enumerate() {
+            self.values[place] = -dual;
+            if let Some(slack) = self.slack[i] {
+                self.slack_diagonal[i] = blocks.sigma[slack] + primal;
+                self.values[place] -= 1.0 / self.slack_diagonal[i];
+            }
+        }
+        self.correction = primal;
+        self.solver.factor(&self.values)
+    }
+
+    /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
+    pub fn factor_corrected(&mut self, blocks: Blocks<'_>, mu: f64) -> Result<bool, FactorizationError> {
+        let wanted = Inertia { positive: self.variables, negative: self.slack.len(), zero: 0 };
+        let regularisation = DUAL_REGULARISATION * mu.powf(0.25);
+        let mut dual = if self.dependent { regularisation } else { 0.0 };
+        match self.factor(blocks, 0.0, dual) {
+            Ok(inertia) if inertia == wanted => return Ok(true),
+            Ok(Inertia { zero: 0, .. }) => {}
+            Ok(_) | Err(FactorizationError::Singular) => {
+                dual = regularisation;
+                if self.factor(blocks, 0.0, dual).is_ok_and(|inertia| inertia == wanted) {
+                    self.dependent = true;
+                    return Ok(true);
+                }
+            }
+            Err(error) => return Err(error),
+        }
+        let mut primal = if self.last_correction == 0.0 { FIRST } else { SMALLEST.max(DECREASE * self.last_correction) };
+        let factor = if self.last_correction == 0.0 { FIRST_INCREASE } else { INCREASE };
+        while primal <= LARGEST {
+            match self.factor(blocks, primal, dual) {
+                Ok(inertia) if inertia == wanted => {
+                    self.last_correction = primal;
+                    return Ok(true);
+                }
+                Ok(Inertia { zero: 0, .. }) => {}
+                Ok(_) | Err(FactorizationError::Singular) => dual = regularisation,
+                Err(error) => return Err(error),
+            }
+            primal *= factor;
+        }
+        Ok(false)
+    }
+
+    /// Solves for the steps (w_step, y_step) that belong to right-hand sides.
+    pub fn solve(&mut self, right: Sides<'_>, w_step: &mut [f64], y_step: &mut [f64]) -> Result<(), FactorizationError> {
+        let n = self.variables;
+        self.right[..n].copy_from_slice(&right.w[..n]);
+        for (i, slack) in self.slack.iter().enumerate() {
+            let from_slack = slack.map_or(0.0, |slack| right.w[slack] / self.slack_diagonal[i]);
+            self.right[n + i] = right.rows[i] + from_slack;
+        }
+        self.solver.solve(&self.right, &mut self.solution)?;
+        w_step[..n].copy_from_slice(&self.solution[..n]);
+        y_step.copy_from_slice(&self.solution[n..]);
+        for (i, slack) in self.slack.iter().enumerate() {
+            if let Some(slack) = *slack {
+                w_step[slack] = (right.w[slack] + y_step[i]) / self.slack_diagonal[i];
+            }
+        }
+        if self.solution.iter().any(|value| !value.is_finite()) {
+            return Err(FactorizationError::Singular);
+        }
+        Ok(())
+    }
+}

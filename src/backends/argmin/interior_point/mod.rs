@@ -1,0 +1,139 @@
+//! The interior point as an argmin solver.
+//!
+//! | file | subject |
+//! |---|---|
+//! | [`form`], [`scaling`] | the problem with slacks, without fixed variables, scaled |
+//! | [`engine`] | one iteration |
+//! | [`iterate`] | a primal-dual point and its optimality error |
+//! | [`start`] | the first iterate |
+//! | [`barrier`] | the logarithmic barrier |
+//! | [`kkt`] | the Newton system and its inertia |
+//! | [`line_search`], [`filter`] | which steps are taken |
+//! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
+//! | [`saddle`] | leaving stationary points that are no minima |
+//! | [`polish`] | the last digits, on the active set |
+
+mod barrier;
+mod elastic;
+mod engine;
+mod filter;
+mod form;
+mod iterate;
+mod kkt;
+mod line_search;
+mod polish;
+mod restoration;
+mod saddle;
+mod scaling;
+mod start;
+mod vectors;
+
+use argmin::argmin_error;
+use argmin::core::{Error, KV, Problem, Solver};
+
+use super::state::{Conclusion, NlpState, Point};
+use crate::backends::Termination;
+use crate::model::Evaluator;
+use engine::{Beginning, Ending, Engine};
+use form::Source;
+
+/// A primal-dual interior point with a filter line search.
+pub(super) struct InteriorPoint<'a> {
+    start: Vec<f64>,
+    multipliers: Option<Vec<f64>>,
+    engine: Option<Engine<'a>>,
+}
+
+impl<'a> InteriorPoint<'a> {
+    /// From `start`, with row multipliers of an earlier answer if there are any.
+    pub fn new(start: Vec<f64>, multipliers: Option<Vec<f64>>) -> Self {
+        InteriorPoint { start, multipliers, engine: None }
+    }
+}
+
+impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
+    fn name(&self) -> &str {
+        "interior point"
+    }
+
+    fn init(
+        &mut self,
+        problem: &mut Problem<&'a Evaluator<'a>>,
+        state: NlpState<'s>,
+    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
+        let model = given(problem)?;
+        let beginning = Beginning { x: &self.start, multipliers: self.multipliers.as_deref(), mu: None, push: None };
+        match Engine::new(Source::Given(model), beginning) {
+            Ok(mut engine) => {
+                let point = engine.point();
+                self.engine = Some(engine);
+                Ok((state.at(point, 0.0, model.evaluations()), None))
+            }
+            Err(error) => Ok((state.conclude(Conclusion::of(&error), None), None)),
+        }
+    }
+
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<&'a Evaluator<'a>>,
+        state: NlpState<'s>,
+    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
+        let model = given(problem)?;
+        let Some(engine) = &mut self.engine else {
+            return Err(argmin_error!(NotInitialized, "the interior point has no iterate"));
+        };
+        let state = match engine.step() {
+            Ok(None) => {
+                let point = engine.point();
+                state.at(point, engine.step_norm, model.evaluations())
+            }
+            Ok(Some(ending)) => {
+                let (conclusion, answer) = engine.conclude(ending);
+                state.at(engine.point(), 0.0, model.evaluations()).conclude(conclusion, answer)
+            }
+            Err(error) => state.conclude(Conclusion::of(&error), None),
+        };
+        Ok((state, None))
+    }
+}
+
+fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
+    problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
+}
+
+impl Engine<'_> {
+    /// The current iterate as the user knows it.
+    fn point(&mut self) -> Point {
+        let x = self.form.x(&self.iterate.w).to_vec();
+        Point {
+            x,
+            objective: self.iterate.objective / self.form.objective_scale,
+            relative_violation: self.form.scaled_violation(&self.iterate.rows),
+            feasibility: self.form.violation(&self.iterate.rows),
+            optimality: self.errors.largest(),
+            multipliers: Some(self.form.multipliers(&self.iterate.y)),
+        }
+    }
+
+    /// The run's conclusion, and the answer where it is not the best point by rank.
+    fn conclude(&mut self, ending: Ending) -> (Conclusion, Option<Point>) {
+        let (termination, message, invalid) = match ending {
+            Ending::Optimal | Ending::Acceptable => {
+                std::mem::swap(&mut self.iterate, &mut self.best.iterate);
+                // A run told to stop keeps the point as it is.
+                let _ = self.polish();
+                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
+            }
+            Ending::Infeasible => {
+                let violation = self.form.violation(&self.iterate.rows);
+                (Termination::Converged, format!("the violation {violation:.3e} is a local minimum: locally infeasible"), None)
+            }
+            Ending::Diverging(message) => (Termination::Converged, message, None),
+            Ending::Stuck(message) => return (Conclusion { termination: Termination::Failed, message, invalid: None }, None),
+            Ending::Invalid(term) => {
+                return (Conclusion { termination: Termination::Failed, message: term.clone(), invalid: Some(term) }, None);
+            }
+        };
+        (Conclusion { termination, message, invalid }, Some(self.point()))
+    }
+}

@@ -1,0 +1,158 @@
+//! The last digits: Newton's method on the active set the barrier has found. Active bounds and rows then hold to
+//! rounding, where the barrier leaves them off by μ. Nothing is taken that is not nearer to optimal.
+
+use super::engine::Engine;
+use super::form::Form;
+use super::iterate::Iterate;
+use super::kkt::{Blocks, Sides};
+use crate::model::EvaluationError;
+
+/// Newton steps at the most.
+const MOST_STEPS: usize = 10;
+/// Σ of a variable held at its bound; its inverse for a row that is left out.
+const HELD: f64 = 1e30;
+/// Regularisation where active rows are dependent or the reduced Hessian is singular.
+const REGULARISATION: f64 = 1e-9;
+/// A slack and its multiplier that are both below this do not tell which of them is zero.
+const AMBIGUOUS: f64 = 1e-4;
+
+/// Where each component of w is held: at its lower or upper bound, or not at all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Side {
+    Free,
+    Lower,
+    Upper,
+}
+
+/// What to do with components whose slack and multiplier are both near zero.
+#[derive(Clone, Copy, PartialEq)]
+enum Doubt {
+    /// The larger of the two decides.
+    Compare,
+    /// Hold them.
+    Hold,
+}
+
+impl Engine<'_> {
+    /// Replaces the iterate by a polished one where that lowers the optimality error.
+    pub(super) fn polish(&mut self) -> Result<(), EvaluationError> {
+        self.assess();
+        for doubt in [Doubt::Compare, Doubt::Hold] {
+            let sides = active_set(&self.form, &self.iterate, doubt);
+            let polished = match self.newton_on(&sides) {
+                Ok(polished) => polished,
+                Err(EvaluationError::Invalid { .. }) => continue,
+                Err(stopped) => return Err(stopped),
+            };
+            if let Some(polished) = polished {
+                self.iterate = polished;
+                self.assess();
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// Newton steps on the active set; the best point, if it is better than the iterate.
+    fn newton_on(&mut self, sides: &[Side]) -> Result<Option<Iterate>, EvaluationError> {
+        let mut point = self.iterate.clone();
+        let (mut best, mut least) = (None, self.errors.largest());
+        hold(&self.form, sides, &mut point);
+        point.evaluate(&mut self.form)?;
+        for _ in 0..MOST_STEPS {
+            if !self.active_set_step(sides, &mut point)? {
+                break;
+            }
+            let error = settle(&self.form, sides, &mut point, &mut self.right);
+            if error >= least {
+                if best.is_some() {
+                    break;
+                }
+                continue;
+            }
+            (least, best) = (error, Some(point.clone()));
+        }
+        Ok(best)
+    }
+
+    /// One Newton step of variables and multipliers. `false`: there is none.
+    fn active_set_step(&mut self, sides: &[Side], point: &mut Iterate) -> Result<bool, EvaluationError> {
+        let Self { form, kkt, hessian, sigma, right, direction, .. } = self;
+        let n = form.variables();
+        form.hessian(&point.w, &point.y, hessian)?;
+        point.lagrangian_gradient(form, right);
+        for j in 0..sides.len() {
+            let held = sides[j] != Side::Free;
+            right[j] = if held || j >= n { 0.0 } else { -right[j] };
+            sigma[j] = match (held, j < n) {
+                (true, true) => HELD,
+                (false, true) => 0.0,
+                // A held slack makes its row an equality; a free one takes its row out.
+                (true, false) => f64::INFINITY,
+                (false, false) => 1.0 / HELD,
+            };
+        }
+        let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
+        let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
+        let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
+        let regular = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0);
+        if !regular && kkt.factor(blocks, REGULARISATION, REGULARISATION).is_err() {
+            return Ok(false);
+        }
+        if kkt.solve(Sides { w: right, rows: &rows }, &mut direction.w, &mut direction.y).is_err() {
+            return Ok(false);
+        }
+        for j in (0..n).filter(|&j| sides[j] == Side::Free) {
+            point.w[j] = (point.w[j] + direction.w[j]).max(form.lower[j]).min(form.upper[j]);
+        }
+        for i in 0..rows.len() {
+            point.y[i] = if in_play(i) { point.y[i] + direction.y[i] } else { 0.0 };
+        }
+        point.evaluate(form)?;
+        Ok(true)
+    }
+}
+
+/// Which bounds are active: those whose multiplier outweighs their slack.
+fn active_set(form: &Form<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<Side> {
+    let active = |slack: f64, z: f64| z > slack || (doubt == Doubt::Hold && slack < AMBIGUOUS && z < AMBIGUOUS);
+    (0..form.size())
+        .map(|j| {
+            let (below, above) = (iterate.w[j] - form.lower[j], form.upper[j] - iterate.w[j]);
+            match (active(below, iterate.z_lower[j]), active(above, iterate.z_upper[j])) {
+                (true, false) => Side::Lower,
+                (false, true) => Side::Upper,
+                (true, true) if below < above => Side::Lower,
+                (true, true) => Side::Upper,
+                (false, false) => Side::Free,
+            }
+        })
+        .collect()
+}
+
+/// Puts held components onto their bounds.
+fn hold(form: &Form<'_>, sides: &[Side], point: &mut Iterate) {
+    for (j, side) in sides.iter().enumerate() {
+        match side {
+            Side::Lower => point.w[j] = form.lower[j],
+            Side::Upper => point.w[j] = form.upper[j],
+            Side::Free => {}
+        }
+    }
+}
+
+/// Free slacks at their rows' values, bound multipliers from stationarity; the optimality error of the result.
+fn settle(form: &Form<'_>, sides: &[Side], point: &mut Iterate, scratch: &mut [f64]) -> f64 {
+    for (slack, row) in form.slack.iter().zip(&point.rows) {
+        if let Some(slack) = slack.filter(|&slack| sides[slack] == Side::Free) {
+            point.w[slack] = row.max(form.lower[slack]).min(form.upper[slack]);
+        }
+    }
+    form.residual(&point.w, &point.rows, &mut point.residual);
+    point.lagrangian_gradient(form, scratch);
+    for (j, side) in sides.iter().enumerate() {
+        point.z_lower[j] = if *side == Side::Lower { scratch[j].max(0.0) } else { 0.0 };
+        point.z_upper[j] = if *side == Side::Upper { (-scratch[j]).max(0.0) } else { 0.0 };
+    }
+    point.errors(form, 0.0, scratch).largest()
+}

@@ -1,0 +1,118 @@
+//! Leaving stationary points that are no minima. Newton's method finds maxima and saddles as readily as minima when it
+//! starts on one, or on the symmetry plane of one; the inertia tells.
+
+use super::engine::Engine;
+use super::kkt::{Blocks, Sides};
+use super::start;
+use super::vectors::{dot, moved, norm_max};
+use super::{barrier, engine};
+use crate::model::EvaluationError;
+
+/// Times a run may leave a saddle.
+const MOST_ESCAPES: usize = 4;
+/// Curvature above −this, relative, is rounding.
+const CURVATURE: f64 = 1e-8;
+/// Inverse iterations towards the direction of least curvature.
+const INVERSE_ITERATIONS: usize = 4;
+/// How far the escape goes, relative to the variables.
+const DISTANCE: f64 = 1e-2;
+/// The barrier parameter to go on with.
+const BARRIER: f64 = 1e-3;
+
+impl Engine<'_> {
+    /// Where the iterate is stationary but curved downwards, moves along that curvature and returns `true`.
+    pub(super) fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
+        if self.escapes >= MOST_ESCAPES || self.form.variables() == 0 {
+            return Ok(false);
+        }
+        self.escapes += 1;
+        let Some(direction) = self.downward_curvature()? else { return Ok(false) };
+        let longest = self.escape_length(&direction);
+        let from = self.iterate.objective;
+        let mut lowest: Option<(f64, f64)> = None;
+        for length in [longest, -longest] {
+            let room = self.room(&direction, length);
+            moved(&self.iterate.w, room, &direction, &mut self.trial.w);
+            match self.form.values(&self.trial.w, &mut self.trial.rows) {
+                Ok(objective) if lowest.is_none_or(|(least, _)| objective < least) => lowest = Some((objective, room)),
+                Ok(_) | Err(EvaluationError::Invalid { .. }) => {}
+                Err(stopped) => return Err(stopped),
+            }
+        }
+        let Some((_, length)) = lowest.filter(|(objective, _)| *objective <= from + from.abs() * 1e-12) else { return Ok(false) };
+        moved(&self.iterate.w, length, &direction, &mut self.trial.w);
+        self.go_on_from_trial()
+    }
+
+    /// The longest step along ±direction inside the bounds, at most `length`.
+    fn room(&self, direction: &[f64], length: f64) -> f64 {
+        let step: Vec<f64> = direction.iter().map(|value| value * length).collect();
+        length * barrier::longest_step(&self.form, &self.iterate.w, &step, 0.5)
+    }
+
+    fn escape_length(&self, direction: &[f64]) -> f64 {
+        DISTANCE * (1.0 + norm_max(&self.iterate.w[..self.form.variables()])) / norm_max(direction)
+    }
+
+    /// A direction of negative curvature of the barrier's Lagrangian, tangent to the rows; `None` where there is none.
+    fn downward_curvature(&mut self) -> Result<Option<Vec<f64>>, EvaluationError> {
+        let Self { form, iterate, hessian, sigma, kkt, .. } = self;
+        let (n, m) = (form.variables(), form.rows.len());
+        match form.hessian(&iterate.w, &iterate.y, hessian) {
+            Err(EvaluationError::Invalid { .. }) => return Ok(None),
+            other => other?,
+        }
+        barrier::sigma(form, &iterate.w, &iterate.z_lower, &iterate.z_upper, sigma);
+        let blocks = Blocks { hessian, jacobian: &iterate.jacobian, sigma };
+        // Regularised, so that dependent rows count as negative eigenvalues like all others.
+        if kkt.factor(blocks, 0.0, engine::LAST_REGULARISATION).is_ok_and(|inertia| inertia.negative <= m) {
+            return Ok(None);
+        }
+        if !kkt.factor_corrected(blocks, 1.0).unwrap_or(false) {
+            return Ok(None);
+        }
+        let (mut right, mut y, rows) = (vec![0.0; form.size()], vec![0.0; m], vec![0.0; m]);
+        let mut step = vec![0.0; form.size()];
+        for (j, right) in right.iter_mut().take(n).enumerate() {
+            // Any fixed vector without a symmetry will do.
+            *right = 1.0 + ((j as f64 + 1.0) * 0.618_033_988_75).fract();
+        }
+        for _ in 0..INVERSE_ITERATIONS {
+            if kkt.solve(Sides { w: &right, rows: &rows }, &mut step, &mut y).is_err() {
+                return Ok(None);
+            }
+            let size = norm_max(&step);
+            if size == 0.0 {
+                return Ok(None);
+            }
+            right.iter_mut().zip(&step).for_each(|(right, step)| *right = step / size);
+            right[n..].fill(0.0);
+        }
+        let size = norm_max(&step);
+        step.iter_mut().for_each(|step| *step /= size);
+        let mut curvature = (0..form.size()).map(|j| sigma[j] * step[j] * step[j]).sum::<f64>();
+        let mut image = vec![0.0; n];
+        form.hessian.multiply(hessian, &step[..n], &mut image);
+        curvature += 2.0 * dot(&image, &step[..n]);
+        curvature -=
+            (0..n).filter_map(|j| form.hessian.position(j, j as u32).map(|at| hessian[at] * step[j] * step[j])).sum::<f64>();
+        let significant = -CURVATURE * norm_max(hessian).max(f64::MIN_POSITIVE);
+        Ok((curvature < significant).then_some(step))
+    }
+
+    /// Makes the trial point the iterate, with a larger barrier parameter and fresh multipliers.
+    fn go_on_from_trial(&mut self) -> Result<bool, EvaluationError> {
+        match self.trial.evaluate(&mut self.form) {
+            Ok(()) => {}
+            Err(EvaluationError::Invalid { .. }) => return Ok(false),
+            Err(stopped) => return Err(stopped),
+        }
+        std::mem::swap(&mut self.iterate, &mut self.trial);
+        self.mu = BARRIER;
+        start::place_slacks(&self.form, &mut self.iterate, BARRIER);
+        start::central_bound_multipliers(&self.form, &mut self.iterate, BARRIER, 1.0 / BARRIER);
+        start::least_squares_multipliers(&self.form, &mut self.kkt, &mut self.iterate);
+        self.forget();
+        Ok(true)
+    }
+}

@@ -1,0 +1,156 @@
+//! Runs the steps of a plan until the certificate passes, a budget ends, or the plan does.
+
+use super::attempt::{End, SEED, run};
+use super::form::Form;
+use super::plan::{From, Step, Unit};
+use super::watch::Watch;
+use crate::model::scaled::{Scales, valid_start};
+use crate::model::{EvaluationError, Evaluator, Meta, Model};
+
+/// Runs inside a box about the best point, after a model gave no number further out.
+const GUARDED_RUNS: u32 = 40;
+/// What a plan came to.
+pub(super) struct Outcome {
+    /// The algorithm of the attempt that counts.
+    pub algorithm: &'static str,
+    /// How that attempt ended.
+    pub end: End,
+    /// Attempts made.
+    pub attempts: u32,
+}
+
+/// Runs `plan`; the answer is in the watch.
+pub(super) fn drive(plan: &[Step], evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> Option<Outcome> {
+    let mut driver = Driver { evaluator, watch, attempts: 0 };
+    let mut counted: Option<(&'static str, End)> = None;
+    for step in plan {
+        let before = driver.watch.iterations();
+        let end = driver.step(step);
+        let is_final = driver.is_over(&end);
+        let improved = driver.watch.iterations() > before;
+        if is_final || counted.is_none() || (improved && !matches!(end, End::Invalid(_))) {
+            counted = Some((step.algorithm.name, end));
+        }
+        if is_final {
+            break;
+        }
+    }
+    counted.map(|(algorithm, end)| Outcome { algorithm, end, attempts: driver.attempts })
+}
+
+struct Driver<'d, 'm, 'w, 'j> {
+    evaluator: &'d Evaluator<'m>,
+    watch: &'d mut Watch<'w, 'j>,
+    attempts: u32,
+}
+
+impl Driver<'_, '_, '_, '_> {
+    /// Whether nothing further should be tried.
+    fn is_over(&self, end: &End) -> bool {
+        let trusts_nlopt = self.watch.job().stop_test.is_none() && !self.watch.is_infeasible();
+        match end {
+            End::Stopped(_) => true,
+            End::Invalid(_) => self.watch.proved().is_some(),
+            End::Ended { code, .. } => {
+                self.watch.proved().is_some()
+                    || self.watch.iterations() >= self.watch.job().max_iterations
+                    || (trusts_nlopt && (*code > 0 || *code == -4))
+            }
+        }
+    }
+
+    /// The step and its restarts, while they help.
+    fn step(&mut self, step: &Step) -> End {
+        let mut end = self.guarded(step, step.from);
+        for _ in 0..step.restarts {
+            let confirmed = self.watch.job().stop_test.is_none();
+            if (self.is_over(&end) && !confirmed) || matches!(end, End::Stopped(_) | End::Invalid(_)) {
+                break;
+            }
+            let before = self.watch.iterations();
+            end = self.guarded(step, From::Best);
+            if self.watch.iterations() == before {
+                break;
+            }
+        }
+        end
+    }
+
+    /// One run; where the model gave no number, more runs in a box about the best point that shrinks and grows.
+    fn guarded(&mut self, step: &Step, from: From) -> End {
+        let mut end = self.attempt(step, from, None);
+        let mut share = 0.5;
+        for _ in 0..GUARDED_RUNS {
+            let escaped = matches!(end, End::Ended { .. }) && share > 1e3;
+            if escaped
+                || self.watch.proved().is_some()
+                || matches!(end, End::Stopped(_))
+                || (share == 0.5 && !matches!(end, End::Invalid(_)))
+            {
+                break;
+            }
+            let next = self.attempt(step, From::Best, Some(share));
+            share *= if matches!(next, End::Invalid(_)) { 0.3 } else { 4.0 };
+            if share < 1e-9 {
+                break;
+            }
+            end = next;
+        }
+        end
+    }
+
+    fn attempt(&mut self, step: &Step, from: From, trust: Option<f64>) -> End {
+        self.attempts += 1;
+        let (x, scales) = match self.starting_point(from, step.unit) {
+            Ok(found) => found,
+            Err(EvaluationError::Stopped(stop)) => return End::Stopped(stop),
+            Err(error) => return End::Invalid(error.to_string()),
+        };
+        let form = Form::new(self.evaluator, scales, &x, trust);
+        self.watch.measure(|x| form.violation_at(x));
+        run(step.algorithm, &form, step.evaluations, self.evaluator, self.watch)
+    }
+
+    /// The point to start from, moved inside its bounds until the model has values there, and the scales at it.
+    fn starting_point(&self, from: From, unit: Unit) -> Result<(Vec<f64>, Scales), EvaluationError> {
+        let start = self.watch.job().start;
+        let size = |(x, start): (&f64, &f64)| match unit {
+            Unit::Magnitude => x.abs().max(start.abs()),
+            Unit::One => 1.0,
+        };
+        valid_start(self.evaluator, &self.origin(from), |x| x.iter().zip(start).map(size).collect())
+    }
+
+    fn origin(&self, from: From) -> Vec<f64> {
+        let meta = self.evaluator.meta();
+        let start = || clamp(self.watch.job().start.to_vec(), meta);
+        let best = || self.watch.best().map_or_else(start, |best| best.x.clone());
+        match from {
+            From::Start => start(),
+            From::Best => best(),
+            From::NearStart(share) => nudged(start(), share, meta),
+            From::NearBest(share) => nudged(best(), share, meta),
+        }
+    }
+}
+
+fn clamp(mut x: Vec<f64>, meta: &Meta) -> Vec<f64> {
+    for (j, value) in x.iter_mut().enumerate() {
+        *value = value.max(meta.lower[j]).min(meta.upper[j]);
+    }
+    x
+}
+
+/// `x` moved by up to ±share of each variable's size, always in the same way (SplitMix64).
+fn nudged(mut x: Vec<f64>, share: f64, meta: &Meta) -> Vec<f64> {
+    let mut state = u64::from(SEED);
+    for value in &mut x {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        let uniform = ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
+        let size = if *value == 0.0 { 1.0 } else { value.abs() };
+        *value += share * size * (2.0 * uniform - 1.0);
+    }
+    clamp(x, meta)
+}

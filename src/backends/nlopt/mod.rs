@@ -1,0 +1,140 @@
+//! NLopt's algorithms behind [`Backend`]. The only room that names NLopt.
+//!
+//! NLopt's status is text to show. `auto` goes on, with restarts from the best point and with other algorithms, until
+//! the stop test handed in (the certificate) passes; see `plan`.
+
+mod algorithms;
+mod attempt;
+mod driver;
+mod ffi;
+mod form;
+mod plan;
+#[cfg(test)]
+mod tests;
+mod watch;
+
+use std::time::Instant;
+
+use self::attempt::End;
+use self::driver::Outcome;
+use self::watch::Watch;
+use super::{Backend, Job, Solution, Termination};
+use crate::model::{Evaluator, Model, Stop};
+
+/// NLopt 2.9.1, linked statically.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Nlopt;
+
+impl Backend for Nlopt {
+    fn name(&self) -> &'static str {
+        "nlopt"
+    }
+
+    fn algorithms(&self) -> &'static [&'static str] {
+        &algorithms::NAMES
+    }
+
+    fn refusal(&self, algorithm: &str, model: &dyn Model) -> Option<String> {
+        let meta = model.meta();
+        let able = algorithms::able(meta);
+        let obstacle = match (algorithm, algorithms::find(algorithm)) {
+            ("auto", _) if able.is_empty() => "auto finds no algorithm for this problem".to_owned(),
+            ("auto", _) => return None,
+            (_, None) => format!("{algorithm} is no algorithm of this backend"),
+            (_, Some(found)) => format!("{algorithm} {}", found.obstacle(meta)?),
+        };
+        Some(match able.is_empty() {
+            true => format!("NLopt: {obstacle}; none of its algorithms can take it, use the argmin backend"),
+            false => format!("NLopt: {obstacle}; these can take it: {}", able.join(", ")),
+        })
+    }
+
+    fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution {
+        let began = Instant::now();
+        let mut solution = match self.refusal(job.algorithm, model).or_else(|| odd_start(model, job.start)) {
+            Some(refusal) => Solution { termination: Termination::Refused, message: refusal, ..blank(job) },
+            None => run(model, job),
+        };
+        solution.seconds = began.elapsed().as_secs_f64();
+        solution
+    }
+}
+
+/// A start NLopt would read past.
+fn odd_start(model: &dyn Model, start: &[f64]) -> Option<String> {
+    let fits = start.len() == model.meta().variables() && start.iter().all(|value| value.is_finite());
+    (!fits).then(|| format!("NLopt: the start must hold {} finite numbers", model.meta().variables()))
+}
+
+fn blank(job: &Job<'_>) -> Solution {
+    Solution {
+        algorithm: job.algorithm.to_owned(),
+        termination: Termination::Failed,
+        message: String::new(),
+        x: job.start.to_vec(),
+        multipliers: None,
+        iterations: None,
+        evaluations: 0,
+        seconds: 0.0,
+        invalid: None,
+    }
+}
+
+fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
+    let blank = blank(job);
+    let meta = model.meta();
+    let plan = match algorithms::find(job.algorithm) {
+        Some(algorithm) => plan::named(algorithm, meta),
+        None => plan::automatic(meta),
+    };
+    let evaluator = Evaluator::new(model, job.budget);
+    let mut watch = Watch::new(job);
+    let outcome = driver::drive(&plan, &evaluator, &mut watch);
+    let answer = watch.proved().or(watch.best());
+    let x = answer.map_or_else(|| blank.x.clone(), |answer| answer.x.clone());
+    let evaluations = evaluator.evaluations();
+    match outcome {
+        None => Solution { message: "NLopt: there was nothing to try".into(), ..blank },
+        Some(outcome) => Solution {
+            algorithm: outcome.algorithm.into(),
+            termination: termination(&outcome.end, watch.proved().is_some()),
+            message: message(&outcome, watch.proved().is_some()),
+            x,
+            evaluations,
+            invalid: invalid(&outcome.end, watch.proved().is_some()),
+            ..blank
+        },
+    }
+}
+
+fn termination(end: &End, proved: bool) -> Termination {
+    match end {
+        _ if proved => Termination::Converged,
+        End::Stopped(Stop::Interrupted) => Termination::Interrupted,
+        // 5: evaluations, 6: time, −5: the watch counted max_iterations.
+        End::Stopped(_) | End::Ended { code: 5 | 6 | -5, .. } => Termination::LimitReached,
+        // −4: rounding limits progress, which is where a solution often lies.
+        End::Ended { code: 1.. | -4, .. } => Termination::Converged,
+        End::Ended { .. } | End::Invalid(_) => Termination::Failed,
+    }
+}
+
+fn invalid(end: &End, proved: bool) -> Option<String> {
+    match end {
+        End::Invalid(error) if !proved => Some(error.clone()),
+        _ => None,
+    }
+}
+
+fn message(outcome: &Outcome, proved: bool) -> String {
+    let Outcome { algorithm, end, attempts } = outcome;
+    let how = match end {
+        End::Ended { code: -5, .. } if proved => "stopped where the stop test passed".to_owned(),
+        End::Ended { words, .. } => format!("ended with {words}"),
+        End::Stopped(stop) => format!("stopped: {stop}"),
+        End::Invalid(error) => format!("ended where the model has no value ({error})"),
+    };
+    let tries = if *attempts == 1 { String::new() } else { format!(" in attempt {attempts}") };
+    let passed = if proved && !how.ends_with("passed") { "; the stop test passed" } else { "" };
+    format!("NLopt's {algorithm} {how}{tries}{passed}")
+}

@@ -1,0 +1,151 @@
+//! The second-order test: how the Lagrangian bends on the null space of the active rows and bounds.
+//!
+//! By the inertia of the KKT matrix [S Aᵀ; A −δI] in scaled variables, S = D∇²L D/σ and A the active rows over the free
+//! variables: it has exactly as many negative eigenvalues as A has rows where S is positive definite on the null space of A
+//! (Gould 1985, "On practical conditions for the existence and uniqueness of solutions to the general equality quadratic
+//! programming problem"). S is shifted by a small multiple of the row sums of its terms' magnitudes, so that what rounding
+//! makes of a flat direction does not count.
+
+use super::kkt::Kkt;
+use super::point::Point;
+use super::{Side, multipliers::Multipliers};
+use crate::linear_algebra::FactorizationError;
+use crate::model::{EvaluationError, Model};
+
+/// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
+const ROUNDING: f64 = 1e-7;
+/// Weakly active limits tested one by one at the most.
+const WEAK_LIMITS: usize = 64;
+
+/// What the second derivatives say.
+#[derive(Default)]
+pub(super) struct Curvature {
+    /// A direction of negative curvature, in the user's variables.
+    pub(super) escape: Option<Vec<f64>>,
+    /// The reduced Hessian is singular, or bends down.
+    pub(super) singular: bool,
+    /// The active rows are dependent over the free variables.
+    pub(super) dependent: bool,
+}
+
+/// The active set at the point.
+pub(super) struct Active<'a> {
+    pub(super) rows: &'a [Side],
+    pub(super) bounds: &'a [Side],
+    pub(super) multipliers: &'a Multipliers,
+}
+
+impl Active<'_> {
+    fn free(&self) -> Vec<usize> {
+        (0..self.bounds.len()).filter(|&j| self.bounds[j] == Side::None).collect()
+    }
+
+    fn held(&self, point: &Point<'_>) -> Vec<usize> {
+        (0..self.rows.len()).filter(|&i| self.rows[i] != Side::None && point.slopes[i] > 0.0).collect()
+    }
+}
+
+/// Whether the gradients of the active limits are linearly dependent.
+pub(super) fn is_dependent(point: &Point<'_>, active: &Active<'_>) -> bool {
+    let (free, held) = (active.free(), active.held(point));
+    match Kkt::without_hessian(point, &free, &held) {
+        Ok(mut kkt) => kkt.dependent_rows().unwrap_or(true),
+        Err(_) => true,
+    }
+}
+
+/// The whole test.
+pub(super) fn examine(point: &Point<'_>, active: &Active<'_>) -> Result<Curvature, EvaluationError> {
+    let hessian = Hessian::of(point, active.multipliers)?;
+    Ok(judge(point, active, &hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true }))
+}
+
+fn judge(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Result<Curvature, FactorizationError> {
+    let (free, held) = (active.free(), active.held(point));
+    let mut kkt = Kkt::new(point, hessian, &free, &held)?;
+    let dependent = kkt.dependent_rows()?;
+    let mut escape = if kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
+    if escape.is_none() && !dependent {
+        escape = one_sided(point, active, hessian, &free, &held)?;
+    }
+    Ok(Curvature { singular: escape.is_some() || kkt.bends_down(-ROUNDING)?, escape, dependent })
+}
+
+/// Weakly active limits hold on one side only: a direction that leaves one of them inwards must not bend down either (or a
+/// maximum on a bound with zero multiplier would pass). Each is let go by itself; more than a few at once are left to the test
+/// on the null space.
+fn one_sided(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    free: &[usize],
+    held: &[usize],
+) -> Result<Option<Vec<f64>>, FactorizationError> {
+    let weak = 1e-6 * point.scale();
+    let is_weak_bound = |&j: &usize| {
+        let one_sided = matches!(active.bounds[j], Side::Lower | Side::Upper);
+        one_sided && (active.multipliers.bounds[j] * point.d[j]).abs() <= weak
+    };
+    let is_weak_row =
+        |&&i: &&usize| active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak;
+    let bounds: Vec<usize> = (0..active.bounds.len()).filter(is_weak_bound).filter(|&j| hessian.size[j] > 0.0).collect();
+    let rows: Vec<usize> = held.iter().filter(is_weak_row).copied().collect();
+    for &j in bounds.iter().take(WEAK_LIMITS) {
+        let mut more = free.to_vec();
+        more.insert(more.partition_point(|&k| k < j), j);
+        if let Some(direction) = bending(point, hessian, &more, held)? {
+            let inward = if active.bounds[j] == Side::Lower { direction[j] } else { -direction[j] };
+            return Ok(Some(turned(direction, inward)));
+        }
+    }
+    for &i in rows.iter().take(WEAK_LIMITS) {
+        let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
+        if let Some(direction) = bending(point, hessian, free, &fewer)? {
+            let pattern = &point.meta().jacobian;
+            let change: f64 = pattern.range(i).map(|at| point.jacobian[at] * direction[pattern.columns[at] as usize]).sum();
+            return Ok(Some(turned(direction, if active.rows[i] == Side::Lower { change } else { -change })));
+        }
+    }
+    Ok(None)
+}
+
+fn bending(point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) -> Result<Option<Vec<f64>>, FactorizationError> {
+    let mut kkt = Kkt::new(point, hessian, free, held)?;
+    if kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING) } else { Ok(None) }
+}
+
+fn turned(mut direction: Vec<f64>, inward: f64) -> Vec<f64> {
+    if inward < 0.0 {
+        direction.iter_mut().for_each(|v| *v = -*v);
+    }
+    direction
+}
+
+/// S = D∇²L D/σ along the model's pattern, and row by row the sum of the magnitudes it is made of.
+pub(super) struct Hessian {
+    pub(super) values: Vec<f64>,
+    pub(super) size: Vec<f64>,
+}
+
+impl Hessian {
+    fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
+        let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
+        let part = |weight: f64, keep: &dyn Fn(f64) -> bool| {
+            let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();
+            let mut values = vec![0.0; pattern.len()];
+            point.origin.model.hessian(point.x, weight, &chosen, &mut values).map(|()| values)
+        };
+        let parts = [part(1.0, &|_| false)?, part(0.0, &|y| y > 0.0)?, part(0.0, &|y| y < 0.0)?];
+        let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
+        for (at, (row, column)) in pattern.iter().enumerate() {
+            let scale = point.d[row] * point.d[column] / point.scale();
+            let magnitude: f64 = parts.iter().map(|part| (part[at] * scale).abs()).sum();
+            hessian.values[at] = parts.iter().map(|part| part[at] * scale).sum();
+            hessian.size[row] += magnitude;
+            if row != column {
+                hessian.size[column] += magnitude;
+            }
+        }
+        Ok(hessian)
+    }
+}

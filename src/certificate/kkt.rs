@@ -1,0 +1,157 @@
+//! The scaled KKT matrix over free variables and active rows, and what its inertia says.
+
+use super::curvature::Hessian;
+use super::matrix::Symmetric;
+use super::point::Point;
+use crate::linear_algebra::FactorizationError;
+
+/// −δ of the dual block: dependent rows neither break the factorisation nor change the count.
+const DUAL: f64 = 1e-11;
+/// Rows whose combination is shorter than this (squared) are dependent.
+const DEPENDENT: f64 = 1e-12;
+/// Yardstick where nothing bends, in units of σ.
+const FLOOR: f64 = 1e-5;
+const POWER_STEPS: usize = 60;
+
+/// [S + shift, Aᵀ; A, −δI]
+pub(super) struct Kkt<'a> {
+    point: &'a Point<'a>,
+    free: &'a [usize],
+    /// Entries of S: (place among the free, place, value).
+    hessian: Vec<(u32, u32, f64)>,
+    /// Entries of A, each row divided by its slope: (row, place among the free, value).
+    rows: Vec<(u32, u32, f64)>,
+    /// Magnitudes of the rows of S.
+    size: Vec<f64>,
+    held: usize,
+    matrix: Symmetric,
+}
+
+impl<'a> Kkt<'a> {
+    pub(super) fn new(
+        point: &'a Point<'a>,
+        hessian: &Hessian,
+        free: &'a [usize],
+        held: &[usize],
+    ) -> Result<Self, FactorizationError> {
+        let place = places(point.meta().variables(), free);
+        let entry = |(at, (row, column)): (usize, (usize, usize))| match (place[row], place[column]) {
+            (u32::MAX, _) | (_, u32::MAX) => None,
+            (row, column) => Some((row, column, hessian.values[at])),
+        };
+        let entries = point.meta().hessian.iter().enumerate().filter_map(entry).collect();
+        Kkt::assemble(point, free, held, entries, free.iter().map(|&j| hessian.size[j]).collect())
+    }
+
+    /// Only A matters.
+    pub(super) fn without_hessian(point: &'a Point<'a>, free: &'a [usize], held: &[usize]) -> Result<Self, FactorizationError> {
+        Kkt::assemble(point, free, held, Vec::new(), vec![0.0; free.len()])
+    }
+
+    fn assemble(
+        point: &'a Point<'a>,
+        free: &'a [usize],
+        held: &[usize],
+        hessian: Vec<(u32, u32, f64)>,
+        size: Vec<f64>,
+    ) -> Result<Self, FactorizationError> {
+        let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
+        let mut rows = Vec::new();
+        for (k, &i) in held.iter().enumerate() {
+            for at in pattern.range(i) {
+                let j = pattern.columns[at] as usize;
+                if place[j] != u32::MAX {
+                    rows.push((k as u32, place[j], point.jacobian[at] * point.d[j] / point.slopes[i]));
+                }
+            }
+        }
+        let p = free.len() as u32;
+        let mut positions: Vec<_> = (0..p + held.len() as u32).map(|k| (k, k)).collect();
+        positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
+        positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
+        let matrix = Symmetric::new(free.len() + held.len(), &positions)?;
+        Ok(Kkt { point, free, hessian, rows, size, held: held.len(), matrix })
+    }
+
+    /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
+    pub(super) fn bends_down(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+        let size = &self.size;
+        let diagonal = size.iter().map(|&size| shift * weight(size)).chain(std::iter::repeat_n(-DUAL, self.held));
+        let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
+        let inertia = self.matrix.factor(entries)?;
+        Ok(inertia.negative > self.held)
+    }
+
+    /// Whether the rows of A are linearly dependent: [I Aᵀ; A εI] gains a positive eigenvalue for every singular value below √ε.
+    pub(super) fn dependent_rows(&mut self) -> Result<bool, FactorizationError> {
+        if self.held == 0 {
+            return Ok(false);
+        }
+        if self.held > self.free.len() {
+            return Ok(true);
+        }
+        let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(DEPENDENT, self.held));
+        let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
+        let inertia = self.matrix.factor(entries)?;
+        Ok(inertia.negative < self.held)
+    }
+
+    /// The direction of lowest curvature on the null space of A, relative to S's magnitudes, by inverse iteration; in the user's
+    /// variables, its largest relative entry 1. `None` where its curvature, computed anew, is not below −shift.
+    pub(super) fn lowest_direction(&mut self, shift: f64) -> Result<Option<Vec<f64>>, FactorizationError> {
+        let mut raised = 4.0 * shift;
+        while raised < 1e12 && self.bends_down(raised)? {
+            raised *= 4.0;
+        }
+        let mut v: Vec<f64> = (0..self.free.len()).map(scattered).collect();
+        for _ in 0..POWER_STEPS {
+            let right =
+                (0..v.len()).map(|k| weight(self.size[k]) * v[k]).chain(std::iter::repeat_n(0.0, self.held)).collect::<Vec<_>>();
+            v = self.matrix.solve(&right)?;
+            v.truncate(self.free.len());
+            let size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            if !(size > 0.0 && size.is_finite()) {
+                return Ok(None);
+            }
+            v.iter_mut().for_each(|v| *v /= size);
+        }
+        Ok((self.rayleigh(&v) < -0.5 * shift).then(|| self.in_user_variables(&v)))
+    }
+
+    /// vᵀSv over vᵀWv, W the magnitudes.
+    fn rayleigh(&self, v: &[f64]) -> f64 {
+        let term = |&(row, column, value): &(u32, u32, f64)| {
+            let product = value * v[row as usize] * v[column as usize];
+            if row == column { product } else { 2.0 * product }
+        };
+        let weight: f64 = v.iter().enumerate().map(|(k, v)| weight(self.size[k]) * v * v).sum();
+        self.hessian.iter().map(term).sum::<f64>() / weight
+    }
+
+    fn in_user_variables(&self, v: &[f64]) -> Vec<f64> {
+        let mut direction = vec![0.0; self.point.meta().variables()];
+        for (&j, v) in self.free.iter().zip(v) {
+            direction[j] = v * self.point.d[j];
+        }
+        direction
+    }
+}
+
+/// The yardstick of a row of S.
+fn weight(size: f64) -> f64 {
+    size + FLOOR
+}
+
+fn places(variables: usize, free: &[usize]) -> Vec<u32> {
+    let mut place = vec![u32::MAX; variables];
+    for (k, &j) in free.iter().enumerate() {
+        place[j] = k as u32;
+    }
+    place
+}
+
+/// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.
+fn scattered(k: usize) -> f64 {
+    let mixed = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    0.5 + (mixed >> 11) as f64 / (1u64 << 53) as f64
+}

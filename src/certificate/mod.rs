@@ -1,0 +1,171 @@
+//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (SPEC §4).
+//!
+//! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
+
+mod candidates;
+mod curvature;
+mod kkt;
+mod least_squares;
+mod lower_bound;
+mod matrix;
+mod multipliers;
+mod point;
+mod runaway;
+#[cfg(test)]
+mod tests;
+mod types;
+mod words;
+
+use curvature::Active;
+use multipliers::Multipliers;
+use point::{Origin, Point};
+
+use crate::model::{Class, EvaluationError, Model};
+pub use lower_bound::lower_bound;
+pub use types::{Certificate, Scope, Side, Tolerances};
+
+/// Certifies `x`. `guess`, a solver's row multipliers, is a first guess and never evidence.
+///
+/// # Errors
+/// The model has no value or derivative at `x`.
+pub fn certify(
+    model: &dyn Model,
+    class: Class,
+    x: &[f64],
+    guess: Option<&[f64]>,
+    tolerances: Tolerances,
+) -> Result<Certificate, EvaluationError> {
+    Certifier::new(model, class, tolerances).certify(x, guess)
+}
+
+/// A model ready to have points judged.
+pub struct Certifier<'a> {
+    origin: Origin<'a>,
+    class: Class,
+    tolerances: Tolerances,
+}
+
+impl<'a> Certifier<'a> {
+    /// Evaluates the gradient at the model's start, once.
+    pub fn new(model: &'a dyn Model, class: Class, tolerances: Tolerances) -> Self {
+        Certifier { origin: Origin::new(model), class, tolerances }
+    }
+
+    /// Whether `x` passes; cheap where it is far from feasible. A stop test for solvers.
+    pub fn accepts(&self, x: &[f64]) -> bool {
+        self.primal_infeasibility(x).is_some_and(|worst| worst <= self.tolerances.constraint)
+            && self.certify(x, None).is_ok_and(|certificate| certificate.certified)
+    }
+
+    /// max violation_i/s_i over rows and bounds; `None` where the model has no value.
+    pub fn primal_infeasibility(&self, x: &[f64]) -> Option<f64> {
+        Point::new(&self.origin, x).ok().map(|point| worst_violation(&point).1)
+    }
+
+    /// Judges `x`; see [`certify`].
+    ///
+    /// # Errors
+    /// The model has no value or derivative at `x`.
+    pub fn certify(&self, x: &[f64], guess: Option<&[f64]>) -> Result<Certificate, EvaluationError> {
+        let point = Point::new(&self.origin, x)?;
+        let multipliers = multipliers::find(&point, guess);
+        let mut certificate = first_order(&point, &multipliers, &self.tolerances);
+        certificate.scope = Scope::of(self.class);
+        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers: &multipliers };
+        if self.is_stationary(&certificate) {
+            let curvature = curvature::examine(&point, &active)?;
+            certificate.negative_curvature = curvature.escape.is_some();
+            certificate.escape = curvature.escape;
+            certificate.minimiser_may_not_be_unique = curvature.singular;
+            certificate.multipliers_not_unique = curvature.dependent;
+            if !certificate.negative_curvature {
+                certificate.runaway = runaway::variables(&point, self.tolerances.constraint);
+            }
+            certificate.certified = !certificate.negative_curvature && certificate.runaway.is_empty();
+        } else if certificate.is_feasible(&self.tolerances) {
+            certificate.multipliers_not_unique = curvature::is_dependent(&point, &active);
+        }
+        certificate.messages = words::messages(&point, &certificate, &self.tolerances);
+        certificate.row_multipliers = multipliers.rows;
+        certificate.bound_multipliers = multipliers.bounds;
+        certificate.row_values = point.rows;
+        certificate.variable_scales = point.d;
+        Ok(certificate)
+    }
+
+    fn is_stationary(&self, certificate: &Certificate) -> bool {
+        let accepted = self.tolerances.optimality;
+        certificate.is_feasible(&self.tolerances)
+            && certificate.dual_infeasibility <= accepted
+            && certificate.complementarity <= accepted
+    }
+}
+
+/// The three residuals of SPEC §4 and the active sides.
+fn first_order(point: &Point<'_>, multipliers: &Multipliers, tolerances: &Tolerances) -> Certificate {
+    let (meta, sigma) = (point.meta(), point.scale());
+    let (y, z) = (&multipliers.rows, &multipliers.bounds);
+    let touch = tolerances.constraint;
+    let row_side = |i: usize| {
+        let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
+        let limit = if (point.rows[i] - lower).abs() < (point.rows[i] - upper).abs() { lower } else { upper };
+        let near = touch * limit.abs().max(point.slopes[i]);
+        point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
+    };
+    let bound_side = |j: usize| {
+        let d = point.d[j];
+        point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
+    };
+    Certificate {
+        objective: point.objective,
+        primal_infeasibility: worst_violation(point).1,
+        dual_infeasibility: worst_slope(point, multipliers).1,
+        complementarity: worst_complementarity(point, multipliers).1,
+        row_sides: (0..meta.rows()).map(row_side).collect(),
+        bound_sides: (0..meta.variables()).map(bound_side).collect(),
+        sigma: point.sigma,
+        ..Certificate::default()
+    }
+}
+
+/// Where something is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Row(usize),
+    Variable(usize),
+}
+
+type Worst = (Option<Place>, f64);
+
+fn worse(worst: Worst, next: (Place, f64)) -> Worst {
+    if next.1 > worst.1 { (Some(next.0), next.1) } else { worst }
+}
+
+/// The worst relative violation and where.
+fn worst_violation(point: &Point<'_>) -> Worst {
+    let rows = (0..point.rows.len()).map(|i| (Place::Row(i), point.row_violation(i)));
+    let bounds = (0..point.x.len()).map(|j| (Place::Variable(j), point.bound_violation(j)));
+    rows.chain(bounds).fold((None, 0.0), worse)
+}
+
+/// max |∂L/∂x_j|·d_j/σ and where.
+fn worst_slope(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
+    if point.sigma == 0.0 {
+        return (None, 0.0);
+    }
+    let rest = point.row_gradient(&multipliers.rows);
+    let slope = |j: usize| ((rest[j] + multipliers.bounds[j]) * point.d[j] / point.sigma).abs();
+    (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
+}
+
+/// Σ|multiplier|·|distance to its limit|/σ, and its largest term.
+fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
+    let term = |multiplier: f64, value: f64, limit: f64| {
+        if multiplier == 0.0 { 0.0 } else { multiplier.abs() * (value - limit).abs() / point.scale() }
+    };
+    let rows = multipliers.rows.iter().enumerate().map(|(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
+    let bounds = multipliers.bounds.iter().enumerate();
+    let bounds = bounds.map(|(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z))));
+    let all: Vec<_> = rows.chain(bounds).collect();
+    (all.iter().copied().fold((None, 0.0), worse).0, all.iter().map(|term| term.1).sum())
+}

@@ -1,0 +1,67 @@
+//! Variables that have run away: the point passes only because the objective flattens out far from the start, and would go on
+//! falling for ever (exp(x) towards −∞). Such an infimum is not attained.
+
+use super::point::Point;
+use crate::model::Model;
+
+/// Single variables tried at the most.
+const TRIED: usize = 32;
+
+/// The variables along whose way from the start the objective still falls, however far one goes; empty at a true minimum.
+pub(super) fn variables(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
+    let mut far: Vec<(f64, usize)> = (0..point.x.len()).filter_map(|j| travelled(point, j).map(|way| (way, j))).collect();
+    far.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let all: Vec<usize> = far.iter().map(|&(_, j)| j).collect();
+    let mut found: Vec<usize> =
+        far.iter().take(TRIED).filter(|&&(way, j)| falls_for_ever(point, &[j], way, tolerance)).map(|f| f.1).collect();
+    let way = far.first().map_or(0.0, |f| f.0);
+    if found.is_empty() && all.len() > 1 && falls_for_ever(point, &all, way, tolerance) {
+        found = all;
+    }
+    found.sort_unstable();
+    found
+}
+
+/// How many times its own size variable j has moved towards an open bound; `None` where it has not gone far.
+fn travelled(point: &Point<'_>, j: usize) -> Option<f64> {
+    let (meta, x) = (point.meta(), point.x[j]);
+    let moved = x - meta.start[j];
+    let open = if moved > 0.0 { meta.upper[j] == f64::INFINITY } else { meta.lower[j] == f64::NEG_INFINITY };
+    let size = if meta.start[j] == 0.0 { 1.0 } else { meta.start[j].abs() };
+    (open && moved.abs() > 2.0 * size).then_some(moved.abs() / size)
+}
+
+/// Moves the variables on, away from the start, 10 % to 100 times as far again: the objective must never rise and fall on the
+/// whole, beyond rounding; or be level to the last digit, far away, at less than what it was on the way.
+fn falls_for_ever(point: &Point<'_>, variables: &[usize], way: f64, tolerance: f64) -> bool {
+    let value = |factor: f64| {
+        let mut x = point.x.to_vec();
+        for &j in variables {
+            x[j] += factor * (point.x[j] - point.meta().start[j]);
+        }
+        feasible_objective(point, &x, tolerance)
+    };
+    let mut last = point.objective;
+    for factor in [0.1, 1.0, 10.0, 100.0] {
+        match value(factor) {
+            Some(next) if next <= last => last = next,
+            _ => return false,
+        }
+    }
+    let fall = point.objective - last;
+    fall > 64.0 * f64::EPSILON * point.objective.abs()
+        || (fall == 0.0 && way > 100.0 && value(-0.5).is_some_and(|f| f > point.objective))
+}
+
+/// f(x) where x meets every row as well as the judged point may.
+fn feasible_objective(point: &Point<'_>, x: &[f64], tolerance: f64) -> Option<f64> {
+    let (meta, model) = (point.meta(), &point.origin.model);
+    let mut rows = vec![0.0; meta.rows()];
+    model.constraints(x, &mut rows).ok()?;
+    let scale = |i: usize, limit: f64| tolerance * limit.abs().max(point.slopes[i]);
+    let meets = |i: usize| {
+        let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
+        (lower.is_infinite() || rows[i] >= lower - scale(i, lower)) && (upper.is_infinite() || rows[i] <= upper + scale(i, upper))
+    };
+    if (0..rows.len()).all(meets) { model.objective(x).ok() } else { None }
+}

@@ -1,0 +1,192 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Sizes structural ribs: the lightest rectangular ribs and H beams that still meet their limits, with a proof.
+#[derive(Debug, Parser)]
+#[command(name = "ribopt", version, max_term_width = 110, after_help = EXIT_CODES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes of solve: 0 certified, 1 an answer that is not certified, 2 the command line or the problem file is wrong, 3 infeasible,
+4 unbounded or not attained, 5 a limit was reached or the run was interrupted, 6 the model gave a value that is no number.
+Begin with: ribopt new > rib.toml; ribopt solve rib.toml";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Solve a problem with every backend, certify and compare the answers
+    #[command(after_help = EXIT_CODES)]
+    Solve(Solve),
+    /// Solve with every backend and algorithm that accepts the problem, side by side
+    Compare(Compare),
+    /// The bound-convergence test: only bounds remain; where does every variable go?
+    Bounds(Bounds),
+    /// Read and validate, check the derivatives, tell class and sizes; solve nothing
+    Check(Check),
+    /// The certificate for a point found elsewhere
+    Verify(Verify),
+    /// A commented example file on standard output
+    New {
+        /// Kind of section the example is about; without it, an example that shows most of the file
+        kind: Option<String>,
+    },
+    /// JSON Schema of the problem file, for completion in editors
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct Solve {
+    /// The problem file (TOML)
+    pub file: PathBuf,
+    /// Use this backend only (repeat for several); default: those of the file, or all that are built in
+    #[arg(long = "backend", value_name = "NAME", value_parser = ["nlopt", "argmin"])]
+    pub backends: Vec<String>,
+    /// The algorithm of the backends that know it by this name, `auto` for the others
+    #[arg(long, value_name = "NAME")]
+    pub algorithm: Option<String>,
+    /// Folder for logs and results; default: results/<file stem>
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Begin at an earlier answer: a result.json or a CSV with the columns name,value
+    #[arg(long, value_name = "ANSWER")]
+    pub start: Option<PathBuf>,
+    /// Solve from N starting points (the file's and N - 1 others, the same every time) and keep the best answer
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub starts: u32,
+    /// Print the result as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub limits: Limits,
+    /// No table and no summary; errors and warnings only
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Changes to the file's numbers for this run.
+#[derive(Debug, Args, Default)]
+pub struct Changes {
+    /// Change a number of the file for this run: VARIABLE.lower=, .upper=, .start= or PARAMETER= (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// What is accepted and when to give up; default: the file's `[solver]`.
+#[derive(Debug, Args, Default)]
+pub struct Limits {
+    /// Largest accepted dual infeasibility and complementarity (fmincon's TolFun)
+    #[arg(long, value_name = "T", value_parser = tolerance)]
+    pub optimality_tolerance: Option<f64>,
+    /// Relative step below which a run has stopped moving (TolX)
+    #[arg(long, value_name = "T", value_parser = tolerance)]
+    pub step_tolerance: Option<f64>,
+    /// Largest accepted relative violation of rows and bounds (TolCon)
+    #[arg(long, value_name = "T", value_parser = tolerance)]
+    pub constraint_tolerance: Option<f64>,
+    /// Iterations per backend
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_iterations: Option<u64>,
+    /// Evaluations per backend
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_evaluations: Option<u64>,
+    /// Seconds for the whole command, all backends together
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub max_seconds: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// Problem files (TOML)
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Write the table and Dolan-Moré performance profiles (CSV and SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    pub profile: Option<PathBuf>,
+    /// Print the table as JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub changes: Changes,
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+#[derive(Debug, Args)]
+pub struct Bounds {
+    /// The problem file (TOML); its constraints are left out
+    pub file: PathBuf,
+    /// Exit code 1 if any variable ends elsewhere than at its lower bound
+    #[arg(long)]
+    pub strict: bool,
+    #[command(flatten)]
+    pub changes: Changes,
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The problem file (TOML)
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+#[derive(Debug, Args)]
+pub struct Verify {
+    /// The problem file (TOML)
+    pub file: PathBuf,
+    /// The point: a result.json, or a CSV with the columns name,value
+    pub answer: PathBuf,
+    /// Print the result as one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub changes: Changes,
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "a number is expected, such as 1e-6".to_string())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("a tolerance lies between 0 and 1, such as 1e-6".into()) }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "a number of seconds is expected".to_string())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("a positive number of seconds is expected".into()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_holds_together() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn tolerances_outside_0_to_1_are_refused() {
+        for bad in ["0", "1", "-1e-6", "nan", "inf", "x"] {
+            assert!(tolerance(bad).is_err(), "{bad}");
+        }
+        assert_eq!(tolerance("1e-8"), Ok(1e-8));
+    }
+
+    #[test]
+    fn seconds_are_positive_and_finite() {
+        for bad in ["0", "-1", "nan", "inf", ""] {
+            assert!(seconds(bad).is_err(), "{bad}");
+        }
+        assert_eq!(seconds("0.5"), Ok(0.5));
+    }
+}

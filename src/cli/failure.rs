@@ -1,0 +1,60 @@
+//! What keeps a command from doing its work: told on standard error, and as JSON where that was asked for. Exit code 2.
+
+use std::io;
+
+use thiserror::Error;
+
+use super::output;
+use ribopt::report::result::{Mistake, write_mistakes};
+use ribopt::run::RunError;
+
+/// The exit code of a wrong command line or problem file.
+const EXIT_WRONG: u8 = 2;
+
+/// Why a command did not do its work.
+#[derive(Debug, Error)]
+pub enum Failure {
+    /// The arguments are wrong.
+    #[error("{}", .0.render())]
+    Arguments(clap::Error),
+    /// The run could not begin, or leave its files.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// Standard output cannot be written to.
+    #[error("cannot write to standard output: {0}; make room there or send it elsewhere")]
+    Output(io::Error),
+    /// Anything else that was asked for and cannot be.
+    #[error("{0}")]
+    Request(String),
+}
+
+impl Failure {
+    /// Tells the user and returns the exit code.
+    pub fn tell(self, json: bool) -> u8 {
+        match &self {
+            // These come with a headline of their own.
+            Failure::Arguments(_) | Failure::Run(RunError::Input(..)) => output::note(self.to_string().trim_end()),
+            _ => output::note(&format!("error: {self}")),
+        }
+        if json && !matches!(self, Failure::Output(_)) {
+            let (message, mistakes) = self.parts();
+            // Where even this cannot be written, the exit code still tells.
+            let _ = output::print(|out| write_mistakes(&message, &mistakes, out));
+        }
+        EXIT_WRONG
+    }
+
+    fn parts(&self) -> (String, Vec<Mistake>) {
+        match self {
+            Failure::Run(error) => {
+                let message =
+                    if matches!(error, RunError::Input(..)) { "the problem file is wrong".into() } else { error.to_string() };
+                (message, error.mistakes())
+            }
+            other => {
+                let message = other.to_string().trim_end().to_string();
+                (message.clone(), vec![Mistake::of_command(message)])
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! `ribopt solve`
+
+use super::arguments::Solve;
+use super::failure::Failure;
+use super::{interrupt, live_table, output};
+use ribopt::report::{result, summary};
+use ribopt::run::solve::{Request, Solved, solve};
+use ribopt::run::{Subject, Watcher, choice};
+
+/// Solves, shows what was found and returns the exit code.
+pub fn run(arguments: &Solve) -> Result<u8, Failure> {
+    let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    arguments.limits.apply(&mut subject.settings);
+    output::warn(&subject.about.warnings);
+    let request = Request {
+        choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
+        out: arguments.out.as_deref(),
+        start: arguments.start.as_deref(),
+        starts: arguments.starts as usize,
+        interrupt: Some(interrupt::flag()),
+    };
+    let mut table = live_table::on_terminal(arguments.quiet);
+    let watcher: &mut dyn Watcher = match &mut table {
+        Some(table) => table,
+        None => &mut (),
+    };
+    let solved = solve(&subject, &request, watcher)?;
+    let new_warnings = solved.about.warnings.get(subject.about.warnings.len()..).unwrap_or_default();
+    output::warn(new_warnings);
+    show(arguments, &subject, &solved)?;
+    Ok(solved.outcome.exit_code())
+}
+
+fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Failure> {
+    let findings = solved.findings(subject);
+    if arguments.json {
+        return output::print(|out| result::write(&findings, out));
+    }
+    if arguments.quiet {
+        return Ok(());
+    }
+    output::print(|out| {
+        summary::write(&findings, out)?;
+        writeln!(out, "logs and results: {}", solved.folder().display())
+    })
+}

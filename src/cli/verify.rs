@@ -1,0 +1,21 @@
+//! `ribopt verify`
+
+use super::arguments::Verify;
+use super::failure::Failure;
+use super::output;
+use ribopt::crosscheck::Status;
+use ribopt::report::{Findings, result, summary};
+use ribopt::run::{Subject, verify::verify};
+
+/// Certifies a point and returns the exit code: 0 certified, 1 not.
+pub fn run(arguments: &Verify) -> Result<u8, Failure> {
+    let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    arguments.limits.apply(&mut subject.settings);
+    output::warn(&subject.about.warnings);
+    let outcome = verify(&subject, &arguments.answer)?;
+    let volumes = subject.volumes(&outcome.x);
+    let (about, model, class) = (&subject.about, subject.model(), subject.class);
+    let findings = Findings { about, model, class, outcome: &outcome, volumes };
+    output::print(|out| if arguments.json { result::write(&findings, out) } else { summary::write(&findings, out) })?;
+    Ok(u8::from(outcome.status != Status::Certified))
+}

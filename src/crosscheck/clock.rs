@@ -1,0 +1,41 @@
+//! The time one command has, shared among everything it runs.
+
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+
+use crate::model::Budget;
+
+/// Longest time that is taken literally; beyond it there is no deadline.
+const CENTURY: f64 = 3e9;
+
+/// The deadline of the whole command and Ctrl-C.
+#[derive(Clone, Copy)]
+pub(super) struct Clock<'a> {
+    deadline: Option<Instant>,
+    interrupt: Option<&'a AtomicBool>,
+    max_evaluations: u64,
+}
+
+impl<'a> Clock<'a> {
+    pub(super) fn new(max_seconds: f64, max_evaluations: u64, interrupt: Option<&'a AtomicBool>) -> Self {
+        let deadline = (max_seconds < CENTURY).then(|| Instant::now() + Duration::from_secs_f64(max_seconds.max(0.0)));
+        Clock { deadline, interrupt, max_evaluations }
+    }
+
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.interrupt.is_some_and(|flag| flag.load(Relaxed))
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        self.is_interrupted() || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+
+    /// A budget with this share of the time that is left, at most `most` seconds.
+    pub(super) fn share(&self, share: f64, most: f64) -> Budget<'a> {
+        let now = Instant::now();
+        let left = self.deadline.map_or(f64::INFINITY, |deadline| deadline.saturating_duration_since(now).as_secs_f64());
+        let seconds = (left * share).min(most);
+        let deadline = (seconds < CENTURY).then(|| now + Duration::from_secs_f64(seconds));
+        Budget { max_evaluations: self.max_evaluations, deadline, interrupt: self.interrupt }
+    }
+}

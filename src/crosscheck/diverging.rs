@@ -1,0 +1,152 @@
+//! Unbounded, or not attained? Decided by following rays with the model itself, never by a solver's word.
+
+use super::Answer;
+use super::attempt::{Contestant, Referee};
+use crate::model::{Meta, Model, Rebounded};
+
+/// How the objective behaves along a feasible ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fall {
+    /// Every tenfold distance brings at least as much again: −∞.
+    Endless,
+    /// Every tenfold distance brings less: it settles.
+    Settling,
+}
+
+/// A feasible ray along which the objective never stops falling.
+pub(super) struct Ray {
+    pub(super) fall: Fall,
+    /// Length n, in the user's variables.
+    pub(super) direction: Vec<f64>,
+    /// Where it begins.
+    pub(super) from: Vec<f64>,
+}
+
+/// Decades a ray is followed.
+const DECADES: i32 = 9;
+/// Half widths of the artificial boxes, in units of the variables' own sizes.
+const BOXES: [f64; 2] = [1e3, 1e5];
+/// Variables tried one by one at the most.
+const TRIED: usize = 200;
+/// Components of a direction below this, relative, are noise.
+const NOISE: f64 = 1e-6;
+
+/// Looks for a ray from the feasible points among `answers`, and, where a variable is open, from minima inside artificial boxes.
+pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &[Answer]) -> Option<Ray> {
+    let meta = referee.task.model.meta();
+    if meta.lower.iter().chain(&meta.upper).all(|bound| bound.is_finite()) {
+        return None;
+    }
+    let points: Vec<_> = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| &answer.solution.x).collect();
+    let along_way = points.iter().find_map(|x| follow(referee, x, &difference(x, &meta.start)));
+    let gradient = |x: &[f64]| {
+        let mut gradient = vec![0.0; x.len()];
+        referee.task.model.gradient(x, &mut gradient).ok().map(|_| gradient.iter().map(|g| -g).collect::<Vec<_>>())
+    };
+    along_way
+        .or_else(|| points.iter().find_map(|x| follow(referee, x, &gradient(x)?)))
+        .or_else(|| points.iter().find_map(|x| axes(meta).find_map(|axis| follow(referee, x, &axis))))
+        .or_else(|| boxed(referee, contestants))
+}
+
+/// ±e_j for the variables open on that side.
+fn axes(meta: &Meta) -> impl Iterator<Item = Vec<f64>> + '_ {
+    let axis = |j: usize, sign: f64| {
+        let mut direction = vec![0.0; meta.variables()];
+        direction[j] = sign * meta.start[j].abs().max(1.0);
+        direction
+    };
+    let up = move |j: usize| (meta.upper[j] == f64::INFINITY).then(|| axis(j, 1.0));
+    let down = move |j: usize| (meta.lower[j] == f64::NEG_INFINITY).then(|| axis(j, -1.0));
+    (0..meta.variables().min(TRIED)).flat_map(move |j| [up(j), down(j)]).flatten()
+}
+
+/// Minima inside two artificial boxes: their difference shows where the problem runs off to.
+fn boxed(referee: &Referee<'_>, contestants: &[Contestant<'_>]) -> Option<Ray> {
+    contestants.iter().find_map(|&contestant| {
+        let [near, far] = BOXES.map(|width| corner(referee, contestant, width));
+        let (near, far) = (near?, far?);
+        let direction = difference(&far, &near);
+        follow(referee, &far, &direction).or_else(|| follow(referee, &near, &direction))
+    })
+}
+
+fn corner(referee: &Referee<'_>, contestant: Contestant<'_>, width: f64) -> Option<Vec<f64>> {
+    if referee.clock.is_over() {
+        return None;
+    }
+    let meta = referee.task.model.meta();
+    let reach = |start: &f64| width * start.abs().max(1.0);
+    let lower = meta.lower.iter().zip(&meta.start).map(|(bound, start)| bound.max(start - reach(start))).collect();
+    let upper = meta.upper.iter().zip(&meta.start).map(|(bound, start)| bound.min(start + reach(start))).collect();
+    let model = Rebounded::new(referee.task.model, lower, upper);
+    let solution = referee.solve_aside(contestant, &model, &model.meta().start, referee.clock.share(0.3, 20.0));
+    let feasible = referee.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= referee.tolerances.constraint);
+    feasible.then_some(solution.x)
+}
+
+/// Follows `from + t·direction` over nine decades: feasible throughout and falling at every step, or no ray.
+fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray> {
+    let (meta, model) = (referee.task.model.meta(), referee.task.model);
+    let direction = cleaned(direction, meta)?;
+    let value = |t: f64| {
+        let x: Vec<f64> = from.iter().zip(&direction).map(|(x, v)| x + t * v).collect();
+        let feasible = referee.judge.primal_infeasibility(&x)? <= referee.tolerances.constraint;
+        feasible.then(|| model.objective(&x).ok().filter(|f| f.is_finite())).flatten()
+    };
+    let mut last = value(0.0)?;
+    let mut falls = Vec::new();
+    for decade in 0..DECADES {
+        let Some(next) = value(10f64.powi(decade)) else { break };
+        falls.push(last - next);
+        last = next;
+    }
+    Some(Ray { fall: classify(&falls)?, direction, from: from.to_vec() })
+}
+
+/// Of at least six falls in a row, none of which is a rise: growing or level is endless, shrinking settles.
+fn classify(falls: &[f64]) -> Option<Fall> {
+    let first = *falls.first()?;
+    if falls.len() < 6 || first <= 0.0 || falls.iter().any(|fall| *fall < 0.0) {
+        return None;
+    }
+    let tail = &falls[falls.len() - 4..];
+    let endless = tail.windows(2).all(|pair| pair[1] > 0.0 && pair[1] >= 0.9 * pair[0]);
+    Some(if endless { Fall::Endless } else { Fall::Settling })
+}
+
+/// Without noise and without components towards a bound; `None` where nothing is left. Its largest relative entry is 1.
+fn cleaned(direction: &[f64], meta: &Meta) -> Option<Vec<f64>> {
+    let size = |j: usize| meta.start[j].abs().max(f64::from(u8::from(meta.start[j] == 0.0)));
+    let open = |j: usize, v: f64| if v > 0.0 { meta.upper[j] == f64::INFINITY } else { meta.lower[j] == f64::NEG_INFINITY };
+    let kept: Vec<f64> = direction.iter().enumerate().map(|(j, &v)| if open(j, v) { v } else { 0.0 }).collect();
+    let largest = kept.iter().enumerate().fold(0.0, |most: f64, (j, v)| most.max(v.abs() / size(j)));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    Some(kept.iter().enumerate().map(|(j, v)| if v.abs() / size(j) >= NOISE * largest { v / largest } else { 0.0 }).collect())
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn falls(f: impl Fn(f64) -> f64) -> Vec<f64> {
+        let values: Vec<f64> = std::iter::once(0.0).chain((0..DECADES).map(|k| 10f64.powi(k))).map(f).collect();
+        values.windows(2).map(|pair| pair[0] - pair[1]).collect()
+    }
+
+    #[test]
+    fn endless_and_settling_falls_are_told_apart() {
+        assert_eq!(classify(&falls(|t| -t)), Some(Fall::Endless));
+        assert_eq!(classify(&falls(|t| -(1.0 + t).ln())), Some(Fall::Endless));
+        assert_eq!(classify(&falls(|t| 1.0 / (1.0 + t))), Some(Fall::Settling));
+        assert_eq!(classify(&falls(|t| (-t).exp())), Some(Fall::Settling));
+        assert_eq!(classify(&falls(|t| (t - 50.0).powi(2))), None);
+        assert_eq!(classify(&falls(|_| 1.0)), None);
+    }
+}

@@ -1,0 +1,166 @@
+//! What is asked and what is answered.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::backends::{Iteration, Solution};
+use crate::certificate::{Certificate, Scope};
+use crate::model::{Class, Model, Substitution};
+use crate::problem::Settings;
+
+/// What is to be solved.
+pub struct Task<'a> {
+    /// The problem in the user's variables and units, minimised. Points are judged on it.
+    pub model: &'a dyn Model,
+    /// The same in other variables, where backends are to solve that.
+    pub substitution: Option<&'a dyn Substitution>,
+    /// What is proved about it.
+    pub class: Class,
+    /// Tolerances and limits.
+    pub settings: &'a Settings,
+    /// Starting point, length n, inside the bounds.
+    pub start: &'a [f64],
+    /// Row multipliers of an earlier answer.
+    pub start_multipliers: Option<&'a [f64]>,
+    /// Starting points of the multi-start; 0 or 1: the start alone.
+    pub starts: usize,
+    /// Set by Ctrl-C.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+/// Makes the observer of one run, given the backend's place in the list and its algorithm as asked for. Points arrive in the
+/// user's variables.
+pub type ObserverFactory<'a> = dyn FnMut(usize, &str) -> Box<dyn FnMut(&Iteration<'_>) + 'a> + 'a;
+
+/// What a run is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[allow(missing_docs)]
+pub enum Status {
+    Certified,
+    #[default]
+    Uncertified,
+    Infeasible,
+    Unbounded,
+    NotAttained,
+    LimitReached,
+    Interrupted,
+    InvalidValue,
+}
+
+impl Status {
+    /// The word of the result file.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Status::Certified => "certified",
+            Status::Uncertified => "uncertified",
+            Status::Infeasible => "infeasible",
+            Status::Unbounded => "unbounded",
+            Status::NotAttained => "not-attained",
+            Status::LimitReached => "limit-reached",
+            Status::Interrupted => "interrupted",
+            Status::InvalidValue => "invalid-value",
+        }
+    }
+}
+
+/// One backend's answer, judged.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// Name of the backend.
+    pub backend: &'static str,
+    /// What it brought back; x in the user's variables.
+    pub solution: Solution,
+    /// f(x), where it has a value.
+    pub objective: Option<f64>,
+    /// What the point is; `None` where it could not be evaluated.
+    pub certificate: Option<Certificate>,
+    /// What happened besides: restarts, cross-starts, why it is not certified.
+    pub remarks: Vec<String>,
+}
+
+/// How far the backends' answers agree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Agreement {
+    /// All certified and objectives within 1e−6·σ.
+    pub agree: bool,
+    /// Largest difference of the objectives.
+    pub objective_difference: f64,
+    /// Largest |x_j − x'_j|/d_j.
+    pub variable_difference: f64,
+}
+
+/// Rows and bounds that conflict.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Conflict {
+    /// The rows violated at the least-violation point, with the signed amount a limit would have to move.
+    pub violated_rows: Vec<(usize, f64)>,
+    /// A small set of rows that already conflicts,
+    pub rows: Vec<usize>,
+    /// with these bounds (variable, upper side).
+    pub bounds: Vec<(usize, bool)>,
+    /// Limits whose joint relaxation makes it feasible with the least sum (row, signed amount in the row's units).
+    pub relaxations: Vec<(usize, f64)>,
+    /// No part of the set conflicts by itself (proved, for linear, geometric and convex problems).
+    pub minimal: bool,
+}
+
+/// A distinct minimum of the multi-start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minimum {
+    /// Its point.
+    pub x: Vec<f64>,
+    /// f(x)
+    pub objective: f64,
+    /// How many starts ended there.
+    pub count: usize,
+}
+
+/// The verdict.
+#[derive(Debug, Clone, Default)]
+pub struct Outcome {
+    /// What the run is worth.
+    pub status: Status,
+    /// How far it reaches.
+    pub scope: Scope,
+    /// Why, in plain sentences.
+    pub message: String,
+    /// What to do about it, where there is something to do.
+    pub remedy: Option<String>,
+    /// The best answer's point, or the least-violation point, or the start.
+    pub x: Vec<f64>,
+    /// f(x), where it has a value.
+    pub objective: Option<f64>,
+    /// What that point is.
+    pub certificate: Option<Certificate>,
+    /// Which of `answers` is the best.
+    pub best: Option<usize>,
+    /// One per backend, in the order given.
+    pub answers: Vec<Answer>,
+    /// Of two or more backends.
+    pub agreement: Option<Agreement>,
+    /// No feasible point is below this (convex classes).
+    pub lower_bound: Option<f64>,
+    /// Where the problem is infeasible.
+    pub conflict: Option<Conflict>,
+    /// Where it is unbounded: a direction, length n.
+    pub direction: Option<Vec<f64>>,
+    /// Variables that run off, where the minimum is not attained.
+    pub runaway: Vec<usize>,
+    /// Distinct minima of the multi-start, best first.
+    pub minima: Vec<Minimum>,
+    /// A backend holds a feasible point better than the certified best answer.
+    pub better_point_elsewhere: bool,
+}
+
+impl Outcome {
+    /// The exit code of `solve` (SPEC §2).
+    pub fn exit_code(&self) -> u8 {
+        match self.status {
+            Status::Certified if !self.better_point_elsewhere => 0,
+            Status::Certified | Status::Uncertified => 1,
+            Status::Infeasible => 3,
+            Status::Unbounded | Status::NotAttained => 4,
+            Status::LimitReached | Status::Interrupted => 5,
+            Status::InvalidValue => 6,
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! From judged answers to the outcome.
+
+use super::attempt::Referee;
+use super::diverging::{Fall, Ray};
+use super::words;
+use super::{Agreement, Answer, Conflict, Outcome, Status};
+use crate::backends::Termination;
+use crate::certificate::{Scope, lower_bound};
+
+/// Objectives this close, in units of σ, are the same.
+const AGREEMENT: f64 = 1e-6;
+
+/// The best answer's place.
+pub(super) fn best(referee: &Referee<'_>, answers: &[Answer]) -> Option<usize> {
+    (0..answers.len()).reduce(|best, k| if referee.is_better(&answers[k], &answers[best]) { k } else { best })
+}
+
+/// An answer that is feasible and better than the best by more than what counts as agreement.
+pub(super) fn better_elsewhere(referee: &Referee<'_>, answers: &[Answer], best: &Answer) -> Option<usize> {
+    let (objective, sigma) = best.certificate.as_ref().map(|certificate| (certificate.objective, certificate.sigma))?;
+    let is_better = |answer: &Answer| {
+        referee.is_feasible(answer)
+            && answer.objective.is_some_and(|value| value < objective - AGREEMENT * sigma.max(f64::EPSILON * objective.abs()))
+    };
+    answers.iter().position(is_better)
+}
+
+/// At least one answer is certified.
+pub(super) fn certified(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome {
+    let mut outcome = standing(referee, answers, Status::Certified);
+    outcome.scope = Scope::of(referee.task.class);
+    outcome.agreement = agreement(&outcome);
+    if let Some(best) = outcome.best {
+        outcome.better_point_elsewhere = better_elsewhere(referee, &outcome.answers, &outcome.answers[best]).is_some();
+    }
+    if outcome.scope == Scope::Global {
+        outcome.lower_bound = bound(referee, &outcome);
+    }
+    words::certified(&mut outcome);
+    outcome
+}
+
+/// A ray shows that the objective has no minimum.
+pub(super) fn diverging(referee: &Referee<'_>, answers: Vec<Answer>, ray: Ray) -> Outcome {
+    let status = if ray.fall == Fall::Endless { Status::Unbounded } else { Status::NotAttained };
+    let mut outcome = standing(referee, answers, status);
+    if !outcome.best.is_some_and(|best| referee.is_feasible(&outcome.answers[best])) {
+        outcome.objective = referee.task.model.objective(&ray.from).ok();
+        outcome.certificate = referee.judge.certify(&ray.from, None).ok();
+        outcome.x = ray.from;
+    }
+    outcome.runaway = (0..ray.direction.len()).filter(|&j| ray.direction[j] != 0.0).collect();
+    outcome.direction = Some(ray.direction);
+    words::diverging(referee, &mut outcome);
+    outcome
+}
+
+/// The elastic phase proved that no nearby point is feasible.
+pub(super) fn infeasible(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, conflict: Conflict) -> Outcome {
+    let mut outcome = at(referee, answers, x, Status::Infeasible);
+    outcome.scope = Scope::of(referee.task.class);
+    words::infeasible(referee, &mut outcome, &conflict);
+    outcome.conflict = Some(conflict);
+    outcome
+}
+
+/// No feasible point was found, and nothing is proved.
+pub(super) fn no_feasible_point(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>) -> Outcome {
+    let mut outcome = at(referee, answers, x, Status::Uncertified);
+    words::no_feasible_point(&mut outcome);
+    outcome
+}
+
+/// Nothing passed, and no reason was found in the problem: why the backends stopped is what can be said.
+pub(super) fn undecided(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome {
+    let ended = |termination| answers.iter().any(|answer| answer.solution.termination == termination);
+    let runs_away = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| !certificate.runaway.is_empty());
+    let status = if referee.clock.is_interrupted() || ended(Termination::Interrupted) {
+        Status::Interrupted
+    } else if answers.iter().any(runs_away) {
+        Status::NotAttained
+    } else if referee.clock.is_over() || ended(Termination::LimitReached) {
+        Status::LimitReached
+    } else if answers.iter().all(|answer| answer.certificate.is_none() || answer.solution.invalid.is_some())
+        && !answers.is_empty()
+    {
+        Status::InvalidValue
+    } else {
+        Status::Uncertified
+    };
+    let mut outcome = standing(referee, answers, status);
+    outcome.runaway = outcome.certificate.as_ref().map(|certificate| certificate.runaway.clone()).unwrap_or_default();
+    words::undecided(&mut outcome);
+    outcome
+}
+
+/// An outcome that shows the best answer.
+fn standing(referee: &Referee<'_>, answers: Vec<Answer>, status: Status) -> Outcome {
+    let best = best(referee, &answers);
+    let shown = best.map(|best| &answers[best]).filter(|answer| answer.certificate.is_some());
+    Outcome {
+        status,
+        x: shown.map_or_else(|| referee.task.start.to_vec(), |answer| answer.solution.x.clone()),
+        objective: shown.and_then(|answer| answer.objective),
+        certificate: shown.and_then(|answer| answer.certificate.clone()),
+        best,
+        answers,
+        ..Outcome::default()
+    }
+}
+
+/// An outcome that shows a point of its own.
+fn at(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, status: Status) -> Outcome {
+    let certificate = referee.judge.certify(&x, None).ok();
+    let objective = certificate.as_ref().map(|certificate| certificate.objective);
+    Outcome { status, x, objective, certificate, answers, ..Outcome::default() }
+}
+
+fn agreement(outcome: &Outcome) -> Option<Agreement> {
+    let best = &outcome.answers[outcome.best?];
+    let reference = best.certificate.as_ref()?;
+    let ran: Vec<_> = outcome.answers.iter().filter(|answer| answer.solution.termination != Termination::Refused).collect();
+    if ran.len() < 2 {
+        return None;
+    }
+    let (mut objective_difference, mut variable_difference, mut certified) = (0f64, 0f64, true);
+    for answer in ran {
+        let Some(certificate) = &answer.certificate else {
+            certified = false;
+            continue;
+        };
+        certified &= certificate.certified;
+        objective_difference = objective_difference.max((certificate.objective - reference.objective).abs());
+        let pairs = answer.solution.x.iter().zip(&best.solution.x).zip(&reference.variable_scales);
+        variable_difference = pairs.fold(variable_difference, |most, ((a, b), d)| most.max((a - b).abs() / d));
+    }
+    let agree = certified && objective_difference <= AGREEMENT * reference.sigma.max(f64::MIN_POSITIVE);
+    Some(Agreement { agree, objective_difference, variable_difference })
+}
+
+/// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.
+fn bound(referee: &Referee<'_>, outcome: &Outcome) -> Option<f64> {
+    let task = referee.task;
+    let Some(other) = task.substitution else {
+        return lower_bound(task.model, &outcome.x, &outcome.certificate.as_ref()?.row_multipliers).ok()?;
+    };
+    let z = other.inward(&outcome.x);
+    let judged = crate::certificate::certify(other.model(), task.class, &z, None, referee.tolerances).ok()?;
+    let bound = lower_bound(other.model(), &z, &judged.row_multipliers).ok()??;
+    let outward = other.outward_objective(bound);
+    // The way back is a library function: a few last digits are given away.
+    Some(if outward == bound { bound } else { outward - 8.0 * f64::EPSILON * outward.abs() })
+}

@@ -1,0 +1,127 @@
+//! The verdict in plain sentences, with a remedy where there is one.
+
+use super::attempt::Referee;
+use super::{Answer, Conflict, Outcome, Status};
+use crate::certificate::Scope;
+
+/// Names shown at the most.
+const SHOWN: usize = 6;
+
+pub(super) fn certified(outcome: &mut Outcome) {
+    let reach = if outcome.scope == Scope::Global { "the global minimum" } else { "a local minimum" };
+    let mut message =
+        format!("The point is {reach}: feasible, stationary, and the objective bends up along every direction left.");
+    if outcome.better_point_elsewhere {
+        message.push_str(" But a backend holds a feasible point with a lower objective, which is not certified.");
+        outcome.remedy = Some("run again with --start from that answer, or with --starts N".into());
+    }
+    for (k, answer) in outcome.answers.iter().enumerate() {
+        if Some(k) != outcome.best && !answer.certificate.as_ref().is_some_and(|certificate| certificate.certified) {
+            message.push_str(&format!(" {} did not get there: {}.", answer.backend, why(answer)));
+        }
+    }
+    if let Some(agreement) = outcome.agreement.filter(|agreement| !agreement.agree) {
+        if outcome.answers.iter().all(|answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified)) {
+            message.push_str(&format!(
+                " The backends ended at different minima ({:.3e} apart in the objective).",
+                agreement.objective_difference
+            ));
+            outcome.remedy.get_or_insert_with(|| "look for the best one with --starts N".into());
+        }
+    }
+    let remarks = outcome.certificate.iter().flat_map(|certificate| &certificate.messages).map(|text| sentence(text));
+    message.extend(remarks);
+    outcome.message = message;
+}
+
+pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
+    let names = variables(referee, &outcome.runaway);
+    if outcome.status == Status::Unbounded {
+        outcome.message =
+            format!("The objective is unbounded: it falls without end along a direction that stays feasible, in {names}.");
+        outcome.remedy = Some(format!("bound {names}, or add the constraint that is missing"));
+    } else {
+        outcome.message = format!("The minimum is not attained: the objective settles while {names} runs off without end.");
+        outcome.remedy = Some(format!("bound {names}"));
+    }
+}
+
+pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict: &Conflict) {
+    let (infeasible, conflicting) = if outcome.scope == Scope::Global {
+        ("infeasible", "conflict")
+    } else {
+        ("locally infeasible", "are locally conflicting")
+    };
+    let model = referee.task.model;
+    let rows: Vec<_> = conflict.rows.iter().map(|&i| format!("row {}", model.row_name(i))).collect();
+    let side = |upper: bool| if upper { "upper" } else { "lower" };
+    let bounds = conflict.bounds.iter().map(|&(j, upper)| format!("the {} bound of {}", side(upper), model.variable_name(j)));
+    let all: Vec<_> = rows.into_iter().chain(bounds).collect();
+    let mut message = format!("The problem is {infeasible}: no point meets every limit, and this one misses them least.");
+    match all.len() {
+        0 => {}
+        1 => message.push_str(&format!(" {} alone cannot be met.", capital(&all[0]))),
+        _ => message.push_str(&format!(" Together {conflicting}: {}.", list(&all))),
+    }
+    outcome.message = message;
+    let meta = model.meta();
+    let move_limit = |&(i, amount): &(usize, f64)| {
+        let (word, limit) = if amount > 0.0 { ("raise", meta.row_upper[i]) } else { ("lower", meta.row_lower[i]) };
+        format!("{word} the limit of row {} from {limit} to {}", model.row_name(i), limit + amount)
+    };
+    let moves: Vec<_> = conflict.relaxations.iter().map(move_limit).collect();
+    outcome.remedy = (!moves.is_empty()).then(|| format!("the least that would make it feasible: {}", list(&moves)));
+}
+
+pub(super) fn no_feasible_point(outcome: &mut Outcome) {
+    outcome.message =
+        "No feasible point was found; that there is none is not proved. This point misses the limits by little.".into();
+    outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
+}
+
+pub(super) fn undecided(outcome: &mut Outcome) {
+    let reasons: Vec<_> = outcome.answers.iter().map(|answer| format!("{}: {}", answer.backend, why(answer))).collect();
+    let (lead, remedy) = match outcome.status {
+        Status::Interrupted => ("Interrupted; this is the best point so far.", None),
+        Status::LimitReached => {
+            ("A limit was reached before any point passed.", Some("raise max_seconds, max_evaluations or max_iterations"))
+        }
+        Status::InvalidValue => {
+            ("The model gave a value that is no number.", Some("bound the variables away from where the term has no value"))
+        }
+        Status::NotAttained => ("The minimum is not attained.", Some("bound the variables that run off")),
+        _ => ("No point passed the certificate.", Some("try another start or algorithm, or --starts N")),
+    };
+    outcome.message = format!("{lead} {}.", reasons.join("; "));
+    outcome.remedy = remedy.map(String::from);
+}
+
+/// Why an answer is not certified.
+fn why(answer: &Answer) -> String {
+    let tests = answer.certificate.iter().flat_map(|certificate| certificate.messages.iter().cloned());
+    let all: Vec<_> =
+        answer.solution.invalid.iter().cloned().chain(tests.take(2)).chain([answer.solution.message.clone()]).collect();
+    let all: Vec<_> = all.iter().map(|text| text.trim_end_matches('.')).filter(|text| !text.is_empty()).collect();
+    all.join(" — ")
+}
+
+fn variables(referee: &Referee<'_>, places: &[usize]) -> String {
+    list(&places.iter().map(|&j| referee.task.model.variable_name(j)).collect::<Vec<_>>())
+}
+
+fn list(names: &[String]) -> String {
+    let mut shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > SHOWN {
+        shown.push_str(&format!(" and {} more", names.len() - SHOWN));
+    }
+    shown
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn sentence(text: &str) -> String {
+    format!(" {}.", capital(text))
+}

@@ -1,0 +1,196 @@
+//! Text → tokens with their places.
+
+use super::Span;
+use super::parse::SyntaxError;
+
+/// One word of the language.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Kind<'a> {
+    Number(f64),
+    /// A name with its dots: `support.Ix`.
+    Name(&'a str),
+    /// Text between quotes, without them.
+    Text(&'a str),
+    /// One of [`SYMBOLS`].
+    Symbol(&'static str),
+}
+
+/// A word and its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Token<'a> {
+    pub(super) kind: Kind<'a>,
+    pub(super) span: Span,
+}
+
+/// Longer ones first, so that `<=` is not read as `<`.
+const SYMBOLS: [&str; 18] = ["<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
+
+/// Signs other languages use, and what to write instead.
+const FOREIGN: [(&str, &str); 19] = [
+    ("**", "^"),
+    ("&&", "and"),
+    ("||", "or"),
+    ("≤", "<="),
+    ("≥", ">="),
+    ("≠", "!="),
+    ("−", "-"),
+    ("–", "-"),
+    ("×", "*"),
+    ("·", "*"),
+    ("÷", "/"),
+    ("²", "^2"),
+    ("³", "^3"),
+    ("π", "pi"),
+    ("√", "sqrt(…)"),
+    ("!", "not"),
+    ("{", "("),
+    ("}", ")"),
+    (";", ","),
+];
+
+/// More mistakes than these help nobody.
+const MISTAKES_SHOWN: usize = 10;
+
+/// All tokens of a text, and what could not be read.
+pub(super) fn tokens(text: &str) -> (Vec<Token<'_>>, Vec<SyntaxError>) {
+    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), mistakes: Vec::new() };
+    while lexer.at < text.len() && lexer.mistakes.len() < MISTAKES_SHOWN {
+        lexer.step();
+    }
+    (lexer.tokens, lexer.mistakes)
+}
+
+struct Lexer<'a> {
+    text: &'a str,
+    at: usize,
+    tokens: Vec<Token<'a>>,
+    mistakes: Vec<SyntaxError>,
+}
+
+impl<'a> Lexer<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn step(&mut self) {
+        let rest = self.rest();
+        let space = rest.len() - rest.trim_start().len();
+        if space > 0 {
+            self.at += space;
+        } else if begins_number(rest) {
+            self.number();
+        } else if rest.starts_with(is_letter) {
+            self.name();
+        } else if rest.starts_with(['"', '\'']) {
+            self.quoted();
+        } else if let Some((sign, instead)) = FOREIGN.iter().find(|(sign, _)| rest.starts_with(sign) && !rest.starts_with("!=")) {
+            self.foreign(sign, instead);
+        } else if let Some(symbol) = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol)) {
+            self.push(Kind::Symbol(symbol), symbol.len());
+        } else {
+            self.unknown();
+        }
+    }
+
+    /// Takes `length` bytes and returns their place.
+    fn take(&mut self, length: usize) -> Span {
+        let start = self.at;
+        self.at += length;
+        Span { start, end: self.at }
+    }
+
+    fn push(&mut self, kind: Kind<'a>, length: usize) {
+        let span = self.take(length);
+        self.tokens.push(Token { kind, span });
+    }
+
+    fn number(&mut self) {
+        let rest = self.rest();
+        let length = number_length(rest.as_bytes());
+        match rest[..length].parse::<f64>() {
+            Ok(value) if value.is_finite() => self.push(Kind::Number(value), length),
+            _ => {
+                let message = format!("the number `{}` is too large", &rest[..length]);
+                let span = self.take(length);
+                self.mistakes.push(SyntaxError::new(span, message).help("the largest number is about 1.8e308"));
+            }
+        }
+    }
+
+    fn name(&mut self) {
+        let rest = self.rest();
+        let mut length = word_length(rest);
+        while rest[length..].starts_with('.') && rest[length + 1..].starts_with(is_letter) {
+            length += 1 + word_length(&rest[length + 1..]);
+        }
+        let dot = self.at + length;
+        self.push(Kind::Name(&rest[..length]), length);
+        if rest[length..].starts_with('.') {
+            let span = Span { start: dot, end: dot + 1 };
+            self.at = dot + 1;
+            self.mistakes.push(SyntaxError::new(span, "expected a name after the dot").help("as in support.Ix"));
+        }
+    }
+
+    fn quoted(&mut self) {
+        let rest = self.rest();
+        let quote = &rest[..1];
+        match rest[1..].find(quote) {
+            Some(length) => self.push(Kind::Text(&rest[1..=length]), length + 2),
+            None => {
+                let span = self.take(1);
+                self.at = self.text.len();
+                self.mistakes.push(SyntaxError::new(span, "this quotation mark is never closed"));
+            }
+        }
+    }
+
+    fn foreign(&mut self, sign: &str, instead: &str) {
+        let span = self.take(sign.len());
+        self.mistakes.push(SyntaxError::new(span, format!("`{sign}` is not known here")).help(format!("write `{instead}`")));
+    }
+
+    /// A run of characters that mean nothing, as one mistake.
+    fn unknown(&mut self) {
+        let rest = self.rest();
+        let known = |c: char| c.is_whitespace() || c.is_ascii_alphanumeric() || "_.\"'<>=!+-*/^()[],:".contains(c);
+        let first = rest.chars().next().map_or(0, char::len_utf8);
+        let length = first + rest[first..].find(known).unwrap_or(rest.len() - first);
+        let message = match rest.starts_with(char::is_control) {
+            true => "a control character cannot be part of an expression".to_string(),
+            false => format!("`{}` is not known here", &rest[..length]),
+        };
+        let span = self.take(length);
+        self.mistakes.push(SyntaxError::new(span, message).help("names are made of A-Z, a-z, 0-9 and _"));
+    }
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_ascii_alphabetic() || c == '_'
+}
+
+fn word_length(text: &str) -> usize {
+    text.find(|c: char| !is_letter(c) && !c.is_ascii_digit()).unwrap_or(text.len())
+}
+
+fn begins_number(text: &str) -> bool {
+    let digits = text.strip_prefix('.').unwrap_or(text);
+    digits.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// The bytes of `12`, `1.`, `.5`, `1e-3` at the front.
+fn number_length(bytes: &[u8]) -> usize {
+    let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let mut length = digits(0);
+    if bytes.get(length) == Some(&b'.') {
+        length += 1 + digits(length + 1);
+    }
+    if let Some(b'e' | b'E') = bytes.get(length) {
+        let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
+        let exponent = digits((length + 1 + sign).min(bytes.len()));
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
+}

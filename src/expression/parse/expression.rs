@@ -1,0 +1,206 @@
+//! Sums, products, powers, names, calls.
+
+use super::chain::{self, Rank};
+use super::condition::condition;
+use super::cursor::Cursor;
+use super::{Parsed, SyntaxError};
+use crate::expression::Span;
+use crate::expression::ast::{Ast, AstKind, Collection};
+use crate::expression::lexer::Kind;
+use crate::expression::operators::{Binary, Fold, Unary};
+
+const SUM: Rank = Rank { join: Binary::Add, take: Binary::Subtract };
+const PRODUCT: Rank = Rank { join: Binary::Multiply, take: Binary::Divide };
+
+/// Words of conditions, which cannot be names.
+const KEYWORDS: [&str; 4] = ["where", "and", "or", "not"];
+
+/// `term ± term ± …`
+pub(super) fn expression(cursor: &mut Cursor) -> Parsed<Ast> {
+    let first = product(cursor)?;
+    let mut links = Vec::new();
+    loop {
+        let taken = cursor.accept("-");
+        if !taken && !cursor.accept("+") {
+            return Ok(chain::tree(SUM, first, links));
+        }
+        links.push((taken, product(cursor)?));
+    }
+}
+
+/// `factor * factor / …`
+fn product(cursor: &mut Cursor) -> Parsed<Ast> {
+    let first = signed(cursor)?;
+    let mut links = Vec::new();
+    loop {
+        let taken = cursor.accept("/");
+        if !taken && !cursor.accept("*") {
+            return Ok(chain::tree(PRODUCT, first, links));
+        }
+        links.push((taken, signed(cursor)?));
+    }
+}
+
+/// `-x`, `+x`, or a power.
+fn signed(cursor: &mut Cursor) -> Parsed<Ast> {
+    let start = cursor.span().start;
+    if cursor.accept("-") {
+        let operand = cursor.nested(signed)?;
+        return Ok(Ast { kind: AstKind::Unary(Unary::Negate, Box::new(operand)), span: cursor.since(start) });
+    }
+    if cursor.accept("+") {
+        return cursor.nested(signed);
+    }
+    power(cursor)
+}
+
+/// `base ^ exponent`; the exponent may have a sign and a power of its own.
+fn power(cursor: &mut Cursor) -> Parsed<Ast> {
+    let start = cursor.span().start;
+    let base = atom(cursor)?;
+    if !cursor.accept("^") {
+        return Ok(base);
+    }
+    let exponent = cursor.nested(signed)?;
+    Ok(Ast { kind: AstKind::Binary(Binary::Power, Box::new(base), Box::new(exponent)), span: cursor.since(start) })
+}
+
+fn atom(cursor: &mut Cursor) -> Parsed<Ast> {
+    let start = cursor.span().start;
+    let kind = match cursor.peek() {
+        Some(Kind::Number(value)) => {
+            cursor.advance();
+            AstKind::Number(value)
+        }
+        Some(Kind::Symbol("(")) => {
+            cursor.advance();
+            let inner = cursor.nested(expression)?;
+            cursor.expect(")")?;
+            inner.kind
+        }
+        Some(Kind::Name(name)) if !KEYWORDS.contains(&name) => named(cursor, name)?,
+        Some(Kind::Text(_)) => {
+            let error = SyntaxError::new(cursor.span(), "text is no number");
+            return Err(error.help("text stands in conditions only: line == \"L0\""));
+        }
+        _ => return Err(cursor.unexpected("a number, a name or `(`")),
+    };
+    Ok(Ast { kind, span: cursor.since(start) })
+}
+
+/// A name, its index, or its arguments.
+fn named(cursor: &mut Cursor, name: &str) -> Parsed<AstKind> {
+    let span = cursor.span();
+    cursor.advance();
+    let parts = || AstKind::Name(name.split('.').map(str::to_string).collect());
+    match cursor.peek() {
+        Some(Kind::Symbol("(")) => call(cursor, name, span),
+        Some(Kind::Symbol("[")) => {
+            cursor.advance();
+            let index = cursor.nested(expression)?;
+            cursor.expect("]")?;
+            Ok(AstKind::Index(Box::new(Ast { kind: parts(), span }), Box::new(index)))
+        }
+        _ => Ok(parts()),
+    }
+}
+
+/// `name(arguments)`, or a fold over ribs or sections; the parenthesis is next.
+fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
+    cursor.advance();
+    let fold = fold(name);
+    if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
+        return over(cursor, fold, collection);
+    }
+    let arguments = arguments(cursor)?;
+    let span = cursor.since(place.start);
+    if let Some(fold) = fold {
+        check_arity(cursor, name, span, arguments.len(), 1, usize::MAX);
+        return Ok(AstKind::Fold(fold, arguments));
+    }
+    if name == "atan2" {
+        check_arity(cursor, name, span, arguments.len(), 2, 2);
+        let mut given = arguments.into_iter();
+        return Ok(match (given.next(), given.next()) {
+            (Some(y), Some(x)) => AstKind::Binary(Binary::Atan2, Box::new(y), Box::new(x)),
+            _ => AstKind::Number(0.0), // the mistake is noted
+        });
+    }
+    if let Some(function) = unary(name) {
+        check_arity(cursor, name, span, arguments.len(), 1, 1);
+        return Ok(match arguments.into_iter().next() {
+            Some(argument) => AstKind::Unary(function, Box::new(argument)),
+            None => AstKind::Number(0.0), // the mistake is noted
+        });
+    }
+    if name.contains('.') {
+        let error = SyntaxError::new(place, format!("`{name}` is no function"));
+        cursor.mistakes.push(error.help("a product is written with `*`"));
+    }
+    Ok(AstKind::Call(name.to_string(), arguments))
+}
+
+/// The arguments up to and with the closing parenthesis.
+fn arguments(cursor: &mut Cursor) -> Parsed<Vec<Ast>> {
+    let mut list = Vec::new();
+    if cursor.accept(")") {
+        return Ok(list);
+    }
+    loop {
+        list.push(cursor.nested(expression)?);
+        if cursor.accept(")") {
+            return Ok(list);
+        }
+        if !cursor.accept(",") {
+            return Err(cursor.unexpected("an operator, `,` or `)`"));
+        }
+    }
+}
+
+fn check_arity(cursor: &mut Cursor, name: &str, span: Span, given: usize, least: usize, most: usize) {
+    if (least..=most).contains(&given) {
+        return;
+    }
+    let plural = if least == 1 { "" } else { "s" };
+    let at_least = if most == usize::MAX { "at least " } else { "" };
+    let message = format!("`{name}` takes {at_least}{least} argument{plural}, not {given}");
+    cursor.mistakes.push(SyntaxError::new(span, message));
+}
+
+/// `ribs` or `sections`, where a colon or a filter follows.
+fn collection_ahead(cursor: &Cursor) -> Option<Collection> {
+    let collection = match cursor.peek() {
+        Some(Kind::Name("ribs")) => Collection::Ribs,
+        Some(Kind::Name("sections")) => Collection::Sections,
+        _ => return None,
+    };
+    matches!(cursor.ahead(1), Some(Kind::Symbol(":") | Kind::Name("where"))).then_some(collection)
+}
+
+/// `ribs where condition: body)`
+fn over(cursor: &mut Cursor, fold: Fold, collection: Collection) -> Parsed<AstKind> {
+    cursor.advance();
+    let filter = match cursor.accept_word("where") {
+        true => Some(Box::new(cursor.nested(condition)?)),
+        false => None,
+    };
+    if !cursor.accept(":") {
+        return Err(cursor.unexpected("an operator or `:`").help("as in sum(ribs where line == \"L0\": length)"));
+    }
+    let body = Box::new(cursor.nested(expression)?);
+    cursor.expect(")")?;
+    Ok(AstKind::Over { fold, collection, filter, body })
+}
+
+fn fold(name: &str) -> Option<Fold> {
+    match name {
+        "sum" => Some(Fold::Sum),
+        "min" => Some(Fold::Min),
+        "max" => Some(Fold::Max),
+        _ => None,
+    }
+}
+
+fn unary(name: &str) -> Option<Unary> {
+    Unary::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+}

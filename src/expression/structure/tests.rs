@@ -1,0 +1,197 @@
+use super::*;
+use crate::expression::display::display;
+use crate::expression::operators::{Binary, Unary};
+use crate::expression::tape::{Tape, Workspace};
+
+/// Two inputs a and b, one datum c; all of them between 0.1 and 2.
+struct Case {
+    graph: Graph,
+    a: NodeId,
+    b: NodeId,
+    c: NodeId,
+}
+
+impl Case {
+    fn new() -> Self {
+        let mut graph = Graph::new();
+        let (a, b, c) = (graph.input(0), graph.input(1), graph.data(0));
+        Case { graph, a, b, c }
+    }
+
+    fn analyse(&self) -> Vec<Structure> {
+        let range = Interval::new(0.1, 2.0);
+        analyse(&self.graph, &[range, range], &[range])
+    }
+
+    fn of(&self, node: NodeId) -> (Curvature, Curvature) {
+        let structure = self.analyse()[node as usize];
+        (structure.curvature, structure.log_curvature)
+    }
+
+    fn blamed(&self, node: NodeId, wanted: Wanted) -> Option<String> {
+        let culprit = blame(&self.graph, &self.analyse(), node, wanted)?;
+        Some(display(&self.graph, culprit, &|slot| ["a", "b"][slot as usize].into(), &|_| "c".into()))
+    }
+}
+
+use Curvature::{Affine, Concave, Constant, Convex, Unknown};
+
+#[test]
+fn sums_of_squares_are_convex() {
+    let mut case = Case::new();
+    let two = case.graph.constant(2.0);
+    let shifted = case.graph.subtract(case.a, two);
+    let (first, second) = (case.graph.power(shifted, 2.0), case.graph.power(case.b, 2.0));
+    let sum = case.graph.add(first, second);
+    assert_eq!(case.of(sum).0, Convex);
+}
+
+#[test]
+fn quadratic_forms_are_factorised() {
+    for (middle, expected) in [(1.0, Convex), (-2.0, Convex), (2.0, Convex), (2.0 + 1e-15, Unknown), (3.0, Unknown)] {
+        let mut case = Case::new();
+        let (first, second) = (case.graph.power(case.a, 2.0), case.graph.power(case.b, 2.0));
+        let product = case.graph.multiply(case.a, case.b);
+        let product = case.graph.scale(middle, product);
+        let sum = case.graph.add(first, product);
+        let sum = case.graph.add(sum, second);
+        assert_eq!(case.of(sum).0, expected, "{middle}");
+        let mut turned = case;
+        let minus = turned.graph.unary(Unary::Negate, sum);
+        assert_eq!(turned.of(minus).0, expected.negated(), "−, {middle}");
+    }
+}
+
+#[test]
+fn rectangles_are_monomials_and_their_frusta_posynomials() {
+    let mut case = Case::new();
+    let area = case.graph.multiply(case.a, case.b);
+    let cube = case.graph.power(case.b, 3.0);
+    let inertia = case.graph.multiply(case.a, cube);
+    let squared = case.graph.power(case.a, 2.0);
+    let both = case.graph.multiply(area, squared);
+    let root = case.graph.unary(Unary::Sqrt, both);
+    let sum = case.graph.add(area, squared);
+    let volume = case.graph.add(sum, root);
+    let volume = case.graph.multiply(case.c, volume);
+    assert_eq!(case.of(inertia), (Unknown, Affine));
+    assert_eq!(case.of(volume).1, Convex);
+    let inverse = case.graph.divide(case.c, volume);
+    assert_eq!(case.of(inverse).1, Concave);
+    assert_eq!(case.of(case.c), (Constant, Constant));
+}
+
+#[test]
+fn differences_of_cubes_are_no_posynomials_and_are_blamed() {
+    let mut case = Case::new();
+    let (a3, b3) = (case.graph.power(case.a, 3.0), case.graph.power(case.b, 3.0));
+    let difference = case.graph.subtract(a3, b3);
+    let root = case.graph.add(difference, case.a);
+    assert_eq!(case.of(root), (Unknown, Unknown));
+    assert_eq!(case.blamed(root, Wanted::LogConvex).unwrap(), "a^3 - b^3");
+    assert_eq!(case.blamed(root, Wanted::Convex).unwrap(), "b^3");
+    assert_eq!(case.blamed(case.a, Wanted::Convex), None);
+}
+
+#[test]
+fn compositions_follow_slope_and_range() {
+    let mut case = Case::new();
+    let square = case.graph.power(case.a, 2.0);
+    let exponential = case.graph.unary(Unary::Exp, square);
+    let log = case.graph.unary(Unary::Log, case.a);
+    let inverse = case.graph.power(case.a, -1.0);
+    let quotient = case.graph.divide(square, case.b);
+    let root = case.graph.unary(Unary::Sqrt, square);
+    let absolute = case.graph.unary(Unary::Abs, log);
+    let larger = case.graph.binary(Binary::Max, square, inverse);
+    let smaller = case.graph.binary(Binary::Min, case.a, log);
+    let two = case.graph.constant(2.0);
+    let exponent = case.graph.binary(Binary::Power, two, square);
+    let nodes = [exponential, log, inverse, quotient, root, absolute, larger, smaller, exponent];
+    let expected = [Convex, Concave, Convex, Convex, Unknown, Unknown, Convex, Concave, Convex];
+    assert_eq!(nodes.map(|node| case.of(node).0), expected);
+}
+
+/// Midpoint convexity at random points, for every claim made about random formulas over several ranges.
+#[test]
+fn claims_hold_at_random_points() {
+    let mut random = Random(1);
+    let mut claims = 0;
+    for round in 0..6000 {
+        let (graph, root) = random.formula();
+        let (lower, upper) = [(0.3, 1.4), (-1.2, 0.9), (-1.6, -0.2), (0.0, 3.0)][round % 4];
+        let range = Interval::new(lower, upper);
+        let structure = analyse(&graph, &[range, range], &[])[root as usize];
+        let (tape, _) = Tape::compile(&graph, root).unwrap();
+        if tape.inputs() == 0 {
+            continue;
+        }
+        for _ in 0..10 {
+            let mut point = || (0..tape.inputs()).map(|_| lower + (upper - lower) * random.uniform()).collect::<Vec<f64>>();
+            let (p, q) = (point(), point());
+            let text = || display(&graph, root, &|slot| format!("x{slot}"), &|_| String::new());
+            claims += check_claims(&tape, structure, &p, &q).unwrap_or_else(|wrong| panic!("{wrong}: {}", text()));
+        }
+    }
+    assert!(claims > 10_000, "{claims}");
+}
+
+/// The number of claims that were put to the test between two points, or the wrong one.
+fn check_claims(tape: &Tape, structure: Structure, p: &[f64], q: &[f64]) -> Result<usize, String> {
+    let value = |x: &[f64]| tape.value(x, &[], &mut Workspace::default());
+    let between = |mean: fn(f64, f64) -> f64| value(&p.iter().zip(q).map(|(&p, &q)| mean(p, q)).collect::<Vec<_>>());
+    let (at_p, at_q) = (value(p), value(q));
+    if !at_p.is_finite() || !at_q.is_finite() {
+        return Ok(0);
+    }
+    if !(structure.interval.lower <= at_p && at_p <= structure.interval.upper) {
+        return Err(format!("{at_p} is outside {:?}", structure.interval));
+    }
+    let gap = 0.5 * (at_p + at_q) - between(|p, q| 0.5 * (p + q));
+    let log_gap = 0.5 * (at_p.ln() + at_q.ln()) - between(|p, q| (p * q).sqrt()).ln();
+    let slack = 1e-9 * (at_p.abs() + at_q.abs() + 1.0);
+    let positive = at_p > 0.0 && at_q > 0.0;
+    let mut claims = 0;
+    for (tested, curvature, gap, slack) in
+        [(true, structure.curvature, gap, slack), (positive, structure.log_curvature, log_gap, 1e-9)]
+    {
+        claims += usize::from(tested && curvature != Unknown);
+        // Not finite: the domain is not convex.
+        if tested && curvature.is_convex() && !(gap >= -slack) {
+            return Err(format!("not convex by {gap}"));
+        }
+        if tested && curvature.is_concave() && !(gap <= slack) {
+            return Err(format!("not concave by {gap}"));
+        }
+    }
+    Ok(claims)
+}
+
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.uniform() * count as f64) as usize
+    }
+
+    fn formula(&mut self) -> (Graph, NodeId) {
+        const BINARY: [Binary; 7] =
+            [Binary::Add, Binary::Subtract, Binary::Multiply, Binary::Divide, Binary::Power, Binary::Min, Binary::Max];
+        let mut graph = Graph::new();
+        let mut nodes = vec![graph.input(0), graph.input(1)];
+        nodes.extend([0.5, -1.5, 2.0, 1.5].map(|number| graph.constant(number)));
+        for _ in 0..6 {
+            let (a, b) = (nodes[self.below(nodes.len())], nodes[self.below(nodes.len())]);
+            nodes.push(match self.below(28) {
+                unary @ 0..14 => graph.unary(Unary::NAMED[unary].1, a),
+                binary => graph.binary(BINARY[binary % 7], a, b),
+            });
+        }
+        (graph, nodes[nodes.len() - 1])
+    }
+}

@@ -1,0 +1,81 @@
+//! Data columns while rows come in: numbers as long as all are numbers, labels from the first text on.
+
+use std::collections::HashMap;
+
+use crate::problem::{Cells, Column};
+
+/// No label in this cell.
+const NONE: u32 = u32::MAX;
+
+/// The columns of sections or of ribs.
+#[derive(Default)]
+pub(super) struct DataColumns {
+    columns: Vec<Growing>,
+    numbers: HashMap<String, usize>,
+}
+
+struct Growing {
+    column: Column,
+    known: HashMap<Box<str>, u32>,
+}
+
+impl DataColumns {
+    /// The number of the column of this name, made where there is none.
+    pub fn column(&mut self, name: &str) -> usize {
+        if let Some(&at) = self.numbers.get(name) {
+            return at;
+        }
+        let column = Column { name: name.to_owned(), cells: Cells::Numbers(Vec::new()) };
+        self.columns.push(Growing { column, known: HashMap::new() });
+        self.numbers.insert(name.to_owned(), self.columns.len() - 1);
+        self.columns.len() - 1
+    }
+
+    /// A number in the cell of `row`. Rows come in order.
+    pub fn number(&mut self, column: usize, row: usize, value: f64) {
+        match &mut self.columns[column].column.cells {
+            Cells::Numbers(numbers) => {
+                numbers.resize(row, f64::NAN);
+                numbers.push(value);
+            }
+            Cells::Labels { .. } => self.columns[column].label(row, &value.to_string()),
+        }
+    }
+
+    /// A text in the cell of `row`; earlier numbers of the column become texts.
+    pub fn text(&mut self, column: usize, row: usize, text: &str) {
+        let growing = &mut self.columns[column];
+        if let Cells::Numbers(numbers) = &mut growing.column.cells {
+            let numbers = std::mem::take(numbers);
+            growing.column.cells = Cells::Labels { labels: Vec::new(), of: Vec::new() };
+            for (row, value) in numbers.into_iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+                growing.label(row, &value.to_string());
+            }
+        }
+        growing.label(row, text);
+    }
+
+    /// The columns, each with one cell per row.
+    pub fn finish(self, rows: usize) -> Vec<Column> {
+        let fill = |mut column: Column| {
+            match &mut column.cells {
+                Cells::Numbers(numbers) => numbers.resize(rows, f64::NAN),
+                Cells::Labels { of, .. } => of.resize(rows, NONE),
+            }
+            column
+        };
+        self.columns.into_iter().map(|growing| fill(growing.column)).collect()
+    }
+}
+
+impl Growing {
+    fn label(&mut self, row: usize, text: &str) {
+        let Cells::Labels { labels, of } = &mut self.column.cells else { return };
+        let number = *self.known.entry(text.into()).or_insert_with(|| {
+            labels.push(text.into());
+            (labels.len() - 1) as u32
+        });
+        of.resize(row, NONE);
+        of.push(number);
+    }
+}

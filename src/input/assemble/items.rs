@@ -1,0 +1,306 @@
+//! Sections and ribs, one by one, whether they come from the problem file or from a table.
+
+use super::Assembly;
+use super::links::Link;
+use crate::input::declaration::{Datum, Declaration, DimensionEntry, Name, Range, RibEntry, SectionEntry};
+use crate::input::source::{Place, Written};
+use crate::problem::names::Entity;
+use crate::problem::nearest::did_you_mean;
+use crate::problem::{Dimension, Origin, VolumeLaw};
+use crate::sections::{self, Form, Kind};
+
+/// One given dimension of a section.
+pub(super) struct Given<'n> {
+    pub name: &'n str,
+    pub place: Place,
+    pub value: GivenValue,
+}
+
+/// What is given for it.
+pub(super) enum GivenValue {
+    Fixed(f64),
+    Own(Range<f64>),
+    Expression(Written),
+}
+
+impl Assembly<'_> {
+    /// The sections and ribs of the problem file itself.
+    pub(super) fn items(&mut self, declared: &Declaration) {
+        self.problem.sections.first_dimension.push(0);
+        for section in &declared.sections {
+            self.section_entry(section);
+        }
+        for rib in &declared.ribs {
+            self.early_rib(rib);
+        }
+    }
+
+    fn section_entry(&mut self, entry: &SectionEntry) {
+        let given: Vec<Given> = entry.dimensions.iter().map(|(name, value)| self.given(name, value)).collect();
+        let kind = entry.kind.as_ref().and_then(|written| self.kind(&written.text, written.place));
+        let Some(s) = self.section(&entry.name, kind, given) else { return };
+        for (name, datum) in &entry.data {
+            if kind.is_some_and(|kind| kind.properties().contains(&name.text.as_str())) {
+                let message = format!("`{}` is a property of this kind of section already", name.text);
+                self.findings.mistake(name.place, message, "choose another name for the datum");
+                continue;
+            }
+            let column = self.section_data.column(&name.text);
+            match datum {
+                Datum::Number(value) => self.section_data.number(column, s as usize, *value),
+                Datum::Text(text) => self.section_data.text(column, s as usize, text),
+            }
+        }
+    }
+
+    fn given<'n>(&mut self, name: &'n Name, entry: &DimensionEntry) -> Given<'n> {
+        let value = match entry {
+            DimensionEntry::Given(crate::input::fields::Scalar::Number(value, _)) => GivenValue::Fixed(*value),
+            DimensionEntry::Given(crate::input::fields::Scalar::Expression(written)) => GivenValue::Expression(written.clone()),
+            DimensionEntry::Own(range) => {
+                let mut part = |scalar: &Option<_>| scalar.as_ref().and_then(|scalar| self.constant(scalar));
+                GivenValue::Own(Range { lower: part(&range.lower), upper: part(&range.upper), start: part(&range.start) })
+            }
+        };
+        Given { name: &name.text, place: name.place, value }
+    }
+
+    /// The kind of this name, or a mistake.
+    pub(super) fn kind(&mut self, name: &str, place: Place) -> Option<&'static dyn Kind> {
+        let found = sections::kind(name);
+        if found.is_none() {
+            let names = || sections::KINDS.iter().map(|kind| kind.name());
+            let help = did_you_mean(name, names());
+            let help = help.unwrap_or_else(|| format!("known: {}", names().collect::<Vec<_>>().join(", ")));
+            self.findings.mistake(place, format!("unknown kind of section `{name}`"), help);
+        }
+        found
+    }
+
+    /// Adds a section, with what can be told of it even after a mistake (its uses are no further mistakes).
+    pub(super) fn section(&mut self, name: &Name, kind: Option<&'static dyn Kind>, given: Vec<Given>) -> Option<u32> {
+        let first = self.names.find(&self.problem, &name.text);
+        if !self.usable(name, "section") || !self.is_new(name, "section", first) {
+            return None;
+        }
+        let s = self.problem.sections.names.len() as u32;
+        let form = kind.and_then(|kind| self.form(name, kind, &given));
+        let fallback = || kind.unwrap_or(sections::KINDS[0]).forms().first();
+        let form = form.or_else(fallback)?;
+        self.problem.sections.form.push(sections::form_number(form)?);
+        self.problem.sections.names.push(name.text.as_str().into());
+        self.section_places.push(name.place);
+        let _ = self.names.sections.enter(&self.problem.sections.names, s); // known to be free
+        let mut slots = vec![None; form.dimensions.len()];
+        for one in given {
+            if let Some(position) = form.dimensions.iter().position(|dimension| *dimension == one.name) {
+                slots[position] = Some(self.dimension(s, position as u8, one));
+            }
+        }
+        let dimensions = slots.into_iter().map(|slot| slot.unwrap_or(Dimension::Constant(1.0)));
+        self.problem.sections.dimensions.extend(dimensions);
+        self.problem.sections.first_dimension.push(self.problem.sections.dimensions.len() as u32);
+        Some(s)
+    }
+
+    fn dimension(&mut self, section: u32, position: u8, given: Given) -> Dimension {
+        if let Place::File { .. } = given.place {
+            self.dimension_places.insert((section, position), given.place);
+        }
+        match given.value {
+            GivenValue::Fixed(value) => {
+                self.positive(given.name, value, given.place);
+                Dimension::Constant(value)
+            }
+            GivenValue::Own(range) => {
+                if let Some(upper) = range.upper.filter(|upper| *upper <= 0.0) {
+                    self.positive(given.name, upper, given.place);
+                }
+                Dimension::Variable(self.push_variable(Origin::Dimension(section, position), range))
+            }
+            GivenValue::Expression(written) => {
+                let (place, inside) = (written.place, written.inside);
+                let text = self.text_number(written);
+                self.links.push(Link { section, position, text, place, inside });
+                Dimension::Formula(u32::MAX)
+            }
+        }
+    }
+
+    /// A dimension is positive and finite.
+    pub(super) fn positive(&mut self, name: &str, value: f64, place: Place) {
+        if value <= 0.0 || value == f64::INFINITY {
+            let message = format!("dimension `{name}` cannot be {value}");
+            self.findings.mistake(place, message, "expected a positive number");
+        }
+    }
+
+    fn text_number(&mut self, written: Written) -> u32 {
+        if let Some(&number) = self.text_numbers.get(&written.text) {
+            return number;
+        }
+        let number = self.texts.len() as u32;
+        self.text_numbers.insert(written.text.clone(), number);
+        self.texts.push(written);
+        number
+    }
+
+    /// The form that asks for exactly the given dimensions; a mistake where there is none.
+    fn form(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) -> Option<&'static Form> {
+        let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
+        let fits = |form: &&Form| form.dimensions.len() == given.len() && form.dimensions.iter().all(|d| has(&d));
+        if let Some(form) = kind.forms().iter().find(fits) {
+            return Some(form);
+        }
+        let mut known: Vec<&str> = kind.forms().iter().flat_map(|form| form.dimensions.iter().copied()).collect();
+        known.sort_unstable();
+        known.dedup();
+        let unknown: Vec<&Given> = given.iter().filter(|one| !known.contains(&one.name)).collect();
+        for one in &unknown {
+            let help = did_you_mean(one.name, known.iter().copied().chain(["data", "kind"]));
+            let help = help.unwrap_or_else(|| format!("{} knows: {}", kind.name(), known.join(", ")));
+            self.findings.mistake(one.place, format!("unknown dimension `{}`", one.name), help);
+        }
+        if unknown.is_empty() {
+            self.misfit(name, kind, given);
+        }
+        // The nearest form stands in.
+        nearest(kind, given)
+    }
+
+    /// The mistake of dimensions that are too few, too many, or of different sets.
+    fn misfit(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) {
+        let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
+        let takes = |form: &Form| given.iter().all(|one| form.dimensions.contains(&one.name));
+        let sets: Vec<String> = kind.forms().iter().map(|form| form.dimensions.join(", ")).collect();
+        let help = format!("give {}", sets.join("; or "));
+        let (place, message) = match kind.forms().iter().find(|form| takes(form)) {
+            Some(form) => {
+                let lacking: Vec<String> = form.dimensions.iter().filter(|d| !has(d)).map(|d| format!("`{d}`")).collect();
+                (name.place, format!("section `{}` lacks {}", name.text, lacking.join(" and ")))
+            }
+            None => {
+                let nearest = nearest(kind, given);
+                let surplus = given.iter().rev().find(|one| nearest.is_some_and(|form| !form.dimensions.contains(&one.name)));
+                let what = surplus.map_or("a dimension".into(), |one| format!("`{}`", one.name));
+                let message = format!("section `{}` has {what} besides what gives it already, or in other words", name.text);
+                (surplus.map_or(name.place, |one| one.place), message)
+            }
+        };
+        self.findings.mistake(place, message, help);
+    }
+
+    /// A rib of the problem file. Its sections may stand in a table, which is read later: see [`Assembly::late_ends`].
+    fn early_rib(&mut self, entry: &RibEntry) {
+        let length = entry.length.as_ref().map(|scalar| (self.constant(scalar), scalar.place()));
+        let length = match length {
+            Some((Some(value), place)) => self.length(value, place),
+            _ => 1.0,
+        };
+        let Some(r) = self.rib(&entry.name, length, entry.law) else { return };
+        for (name, datum) in &entry.data {
+            if self.rib_word(&name.text, name.place) {
+                continue;
+            }
+            let column = self.rib_data.column(&name.text);
+            match datum {
+                Datum::Number(value) => self.rib_data.number(column, r as usize, *value),
+                Datum::Text(text) => self.rib_data.text(column, r as usize, text),
+            }
+        }
+    }
+
+    /// True, and a mistake, where a datum has a name a rib has already.
+    pub(super) fn rib_word(&mut self, name: &str, place: Place) -> bool {
+        let taken = ["length", "volume", "from", "to", "section", "name"].contains(&name);
+        if taken {
+            self.findings.mistake(place, format!("a rib has a `{name}` already"), "choose another name for the datum");
+        }
+        taken
+    }
+
+    /// The length, or 1 after a mistake.
+    pub(super) fn length(&mut self, value: f64, place: Place) -> f64 {
+        if value > 0.0 && value < f64::INFINITY {
+            return value;
+        }
+        self.findings.mistake(place, format!("a rib cannot be {value} long"), "expected a positive number");
+        1.0
+    }
+
+    /// Adds a rib; its ends are entered later.
+    pub(super) fn rib(&mut self, name: &Name, length: f64, law: VolumeLaw) -> Option<u32> {
+        let first = self.names.find(&self.problem, &name.text);
+        if !self.usable(name, "rib") || !self.is_new(name, "rib", first) {
+            return None;
+        }
+        let r = self.problem.ribs.names.len() as u32;
+        self.problem.ribs.names.push(name.text.as_str().into());
+        self.rib_places.push(name.place);
+        let _ = self.names.ribs.enter(&self.problem.ribs.names, r); // known to be free
+        self.problem.ribs.length.push(length);
+        self.problem.ribs.law.push(law);
+        self.problem.ribs.from.push(0);
+        self.problem.ribs.to.push(0);
+        Some(r)
+    }
+
+    /// Enters the ends of the problem file's ribs, once the tables' sections are known too.
+    pub(super) fn late_ends(&mut self, entries: &[RibEntry]) {
+        for entry in entries {
+            let Some(Entity::Rib(r)) = self.names.find(&self.problem, &entry.name.text) else { continue };
+            if self.rib_places[r as usize] != entry.name.place {
+                continue; // the second of two of this name
+            }
+            if let (Some(from), Some(to)) = (&entry.from, &entry.to) {
+                let prismatic = from.place == to.place;
+                let from = self.end(&from.text, from.place);
+                let to = if prismatic { from } else { self.end(&to.text, to.place) };
+                self.connect(r, from, to, entry.name.place);
+            }
+        }
+    }
+
+    /// The section of this name.
+    pub(super) fn end(&mut self, name: &str, place: Place) -> Option<u32> {
+        let found = self.names.sections.find(&self.problem.sections.names, name);
+        if found.is_none() {
+            let near = self.problem.sections.names.iter().take(10_000).map(|name| &**name);
+            let help = did_you_mean(name, near).unwrap_or_else(|| "declare it under [sections] or in the table".into());
+            self.findings.mistake(place, format!("there is no section `{name}`"), help);
+        }
+        found
+    }
+
+    /// Joins a rib to its sections, which must be of one kind.
+    pub(super) fn connect(&mut self, r: u32, from: Option<u32>, to: Option<u32>, place: Place) {
+        let (Some(from), Some(to)) = (from, to) else { return };
+        let kind = |s: u32| sections::kind_of(self.problem.sections.form[s as usize]).name();
+        if kind(from) != kind(to) {
+            let name = &self.problem.ribs.names[r as usize];
+            let message = format!("rib `{name}` joins sections of two kinds: {} and {}", kind(from), kind(to));
+            self.findings.mistake(place, message, "a rib runs between two sections of one kind");
+        }
+        self.problem.ribs.from[r as usize] = from;
+        self.problem.ribs.to[r as usize] = to;
+    }
+
+    /// Closes the data columns.
+    pub(super) fn finish_items(&mut self) {
+        let (sections, ribs) = (self.problem.sections.names.len(), self.problem.ribs.names.len());
+        self.problem.sections.data = std::mem::take(&mut self.section_data).finish(sections);
+        self.problem.ribs.data = std::mem::take(&mut self.rib_data).finish(ribs);
+    }
+
+    /// Where a dimension is given.
+    pub(super) fn dimension_place(&self, section: u32, position: u8) -> Place {
+        let own = self.dimension_places.get(&(section, position));
+        own.or_else(|| self.section_places.get(section as usize)).copied().unwrap_or(Place::Whole)
+    }
+}
+
+/// The form with the most of the given dimensions.
+fn nearest(kind: &'static dyn Kind, given: &[Given]) -> Option<&'static Form> {
+    let common = |form: &Form| given.iter().filter(|one| form.dimensions.contains(&one.name)).count();
+    kind.forms().iter().rev().max_by_key(|form| common(form))
+}

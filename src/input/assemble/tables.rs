@@ -1,0 +1,159 @@
+//! `[tables]`: sections and ribs by the million, row by row.
+
+mod columns;
+
+use std::path::Path;
+
+use sha2::Sha256;
+
+use super::Assembly;
+use super::items::{Given, GivenValue};
+use crate::input::declaration::{Declaration, Name, Range};
+use crate::input::fields::Scalar;
+use crate::input::source::Written;
+use crate::input::table::{Row, Table};
+use crate::problem::VolumeLaw;
+use columns::{Dimension, RibColumns, SectionColumns};
+
+impl Assembly<'_> {
+    /// Reads both tables, and joins all ribs to their sections.
+    pub(super) fn tables(&mut self, declared: &Declaration, folder: &Path, checksum: &mut Sha256) {
+        if let Some(written) = &declared.section_table {
+            self.section_table(written, folder, checksum);
+        }
+        if let Some(written) = &declared.rib_table {
+            self.rib_table(written, folder, checksum);
+        }
+        self.late_ends(&declared.ribs);
+    }
+
+    fn section_table(&mut self, written: &Written, folder: &Path, checksum: &mut Sha256) {
+        let Some(mut table) = Table::open(written, folder, checksum, &mut self.findings) else { return };
+        let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
+        while let Some(row) = table.next(&mut self.findings) {
+            self.section_row(&row, &columns);
+        }
+    }
+
+    fn section_row(&mut self, row: &Row, columns: &SectionColumns) {
+        let name = Name { text: row.field(columns.name).to_owned(), place: row.place(columns.name) };
+        let kind = self.kind(row.field(columns.kind), row.place(columns.kind));
+        let mut given = Vec::with_capacity(4);
+        for dimension in &columns.dimensions {
+            given.extend(self.cell(row, dimension));
+        }
+        if let Some(s) = self.section(&name, kind, given) {
+            for &(at, column) in &columns.data {
+                put(&mut self.section_data, &mut self.findings, row, at, column, s as usize);
+            }
+        }
+    }
+
+    /// A dimension of a row; `None` where its cells are empty.
+    fn cell<'n>(&mut self, row: &Row, columns: &'n Dimension) -> Option<Given<'n>> {
+        let filled = |at: Option<usize>| at.filter(|&at| !row.field(at).is_empty());
+        let parts = [filled(columns.lower), filled(columns.upper), filled(columns.start)];
+        let (value, any) = (filled(columns.value), parts.iter().flatten().next().copied());
+        let place = row.place(value.or(any)?);
+        if let (Some(_), Some(at)) = (value, any) {
+            let message = format!("dimension `{}` is given twice", columns.name);
+            self.findings.mistake(row.place(at), message, "either the value or its bounds");
+        }
+        let value = match value {
+            Some(at) => match number(row.field(at)) {
+                Some(value) => GivenValue::Fixed(value),
+                None => GivenValue::Expression(row.written(at)),
+            },
+            None => {
+                let [lower, upper, start] = parts.map(|at| at.and_then(|at| self.cell_constant(row, at)));
+                GivenValue::Own(Range { lower, upper, start })
+            }
+        };
+        Some(Given { name: &columns.name, place, value })
+    }
+
+    /// A number or a constant expression.
+    fn cell_constant(&mut self, row: &Row, at: usize) -> Option<f64> {
+        number(row.field(at)).or_else(|| self.constant(&Scalar::Expression(row.written(at))))
+    }
+
+    fn rib_table(&mut self, written: &Written, folder: &Path, checksum: &mut Sha256) {
+        let Some(mut table) = Table::open(written, folder, checksum, &mut self.findings) else { return };
+        let Some(columns) = RibColumns::of(&table, self) else { return };
+        while let Some(row) = table.next(&mut self.findings) {
+            self.rib_row(&row, &columns);
+        }
+    }
+
+    fn rib_row(&mut self, row: &Row, columns: &RibColumns) {
+        let name = Name { text: row.field(columns.name).to_owned(), place: row.place(columns.name) };
+        let length = match row.field(columns.length) {
+            "" => {
+                let message = format!("rib `{}` has no length", name.text);
+                self.findings.mistake(row.place(columns.length), message, "expected a positive number");
+                1.0
+            }
+            _ => self.cell_constant(row, columns.length).map_or(1.0, |value| self.length(value, row.place(columns.length))),
+        };
+        let law = columns.law.map_or(VolumeLaw::default(), |at| self.law_cell(row, at));
+        let Some(r) = self.rib(&name, length, law) else { return };
+        self.ends_of_row(row, columns, r, &name);
+        for &(at, column) in &columns.data {
+            put(&mut self.rib_data, &mut self.findings, row, at, column, r as usize);
+        }
+    }
+
+    fn law_cell(&mut self, row: &Row, at: usize) -> VolumeLaw {
+        let text = row.field(at);
+        if text.is_empty() {
+            return VolumeLaw::default();
+        }
+        VolumeLaw::named(text).unwrap_or_else(|| {
+            let message = format!("unknown volume law `{text}`");
+            self.findings.mistake(row.place(at), message, "known: frustum, prismatoid");
+            VolumeLaw::default()
+        })
+    }
+
+    fn ends_of_row(&mut self, row: &Row, columns: &RibColumns, r: u32, name: &Name) {
+        let filled = |at: Option<usize>| at.filter(|&at| !row.field(at).is_empty());
+        match (filled(columns.section), filled(columns.from), filled(columns.to)) {
+            (Some(at), None, None) => {
+                let both = self.end(row.field(at), row.place(at));
+                self.connect(r, both, both, name.place);
+            }
+            (None, Some(from), Some(to)) => {
+                let from = self.end(row.field(from), row.place(from));
+                let to = self.end(row.field(to), row.place(to));
+                self.connect(r, from, to, name.place);
+            }
+            _ => {
+                let message = format!("rib `{}` needs `from` and `to`, or `section`", name.text);
+                self.findings.mistake(name.place, message, "fill either the one cell or the other two");
+            }
+        }
+    }
+}
+
+/// The number a cell holds; `None` for anything else (an expression, perhaps).
+fn number(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|value: &f64| !value.is_nan())
+}
+
+/// Puts a cell into a data column: a number, a text, or nothing.
+fn put(
+    data: &mut super::data::DataColumns,
+    findings: &mut crate::input::findings::Findings,
+    row: &Row,
+    at: usize,
+    column: usize,
+    item: usize,
+) {
+    let text = row.field(at);
+    match text.parse::<f64>() {
+        Ok(value) if value.is_nan() => findings.mistake(row.place(at), "this is no number", "leave the cell empty"),
+        Ok(value) => data.number(column, item, value),
+        Err(_) if text.is_empty() => {}
+        Err(_) => data.text(column, item, text),
+    }
+}

@@ -1,0 +1,101 @@
+//! The file as declared: shapes checked, names not yet looked up, places kept.
+
+use super::fields::Scalar;
+use super::source::{Place, Written};
+use crate::expression::ast::Collection;
+use crate::problem::{Sense, Settings, VolumeLaw};
+
+/// Everything the problem file says; tables are read later.
+#[derive(Default)]
+pub(super) struct Declaration {
+    pub title: Option<String>,
+    pub units: Vec<(String, String)>,
+    pub objective: Option<(Sense, Written)>,
+    pub parameters: Vec<(Name, Numbers)>,
+    pub variables: Vec<VariableEntry>,
+    pub definitions: Vec<(Name, Scalar)>,
+    pub sections: Vec<SectionEntry>,
+    pub ribs: Vec<RibEntry>,
+    pub constraints: Vec<ConstraintEntry>,
+    pub settings: Settings,
+    pub section_table: Option<Written>,
+    pub rib_table: Option<Written>,
+}
+
+/// A name and where it is given.
+#[derive(Debug, Clone)]
+pub(super) struct Name {
+    pub text: String,
+    pub place: Place,
+}
+
+/// One number, or several.
+pub(super) enum Numbers {
+    One(Scalar),
+    Many(Vec<Scalar>, Place),
+}
+
+/// Bounds and start.
+pub(super) struct Range<T> {
+    pub lower: Option<T>,
+    pub upper: Option<T>,
+    pub start: Option<T>,
+}
+
+impl<T> Default for Range<T> {
+    fn default() -> Self {
+        Range { lower: None, upper: None, start: None }
+    }
+}
+
+/// An entry of `[variables]`.
+pub(super) struct VariableEntry {
+    pub name: Name,
+    pub size: Option<Scalar>,
+    pub range: Range<Numbers>,
+}
+
+/// An entry of `[sections]`.
+pub(super) struct SectionEntry {
+    pub name: Name,
+    /// `None` where it is missing (already a mistake).
+    pub kind: Option<Written>,
+    pub dimensions: Vec<(Name, DimensionEntry)>,
+    pub data: Vec<(Name, Datum)>,
+}
+
+/// How a dimension is given.
+pub(super) enum DimensionEntry {
+    Given(Scalar),
+    Own(Range<Scalar>),
+}
+
+/// A value of `data`.
+#[derive(Debug, Clone)]
+pub(super) enum Datum {
+    Number(f64),
+    Text(String),
+}
+
+/// An entry of `[[ribs]]`.
+pub(super) struct RibEntry {
+    pub name: Name,
+    pub from: Option<Written>,
+    pub to: Option<Written>,
+    pub length: Option<Scalar>,
+    pub law: VolumeLaw,
+    pub data: Vec<(Name, Datum)>,
+}
+
+/// An entry of `[[constraints]]`.
+pub(super) struct ConstraintEntry {
+    /// `None` where it has no name.
+    pub name: Option<Name>,
+    pub place: Place,
+    pub repeated: Option<Collection>,
+    pub only: Vec<Written>,
+    pub kind: Option<Written>,
+    pub filter: Option<Written>,
+    pub by: Option<Written>,
+    pub require: Option<Written>,
+}

@@ -1,0 +1,100 @@
+//! `[sections.NAME]` and `[[ribs]]`.
+
+use super::{name, range};
+use crate::input::declaration::{Datum, DimensionEntry, Name, RibEntry, SectionEntry};
+use crate::input::fields::{Field, Fields, Reader};
+use crate::input::source::Written;
+use crate::problem::VolumeLaw;
+use toml::de::DeValue;
+
+/// One section: `kind`, `data`, and every other key a dimension.
+pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry> {
+    let mut fields = field.table(reader)?;
+    let what = format!("section `{}`", field.key);
+    let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
+    let data = data(&mut fields, reader);
+    let dimensions = fields.rest().iter().map(|field| (name(field), dimension(field, reader))).collect();
+    Some(SectionEntry { name: name(field), kind, dimensions, data })
+}
+
+fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {
+    if let DeValue::Table(_) = field.value
+        && let Some(mut fields) = field.table(reader)
+    {
+        let own = range(&mut fields, |field, reader| field.scalar(reader), reader);
+        fields.finish(reader);
+        return DimensionEntry::Own(own);
+    }
+    match field.value {
+        DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) => {}
+        _ => {
+            let what = "a number, an expression in quotes, or { lower = …, upper = …, start = … }";
+            return field.expected(what, reader).unwrap_or(DimensionEntry::Own(Default::default()));
+        }
+    }
+    field.scalar(reader).map_or_else(|| DimensionEntry::Own(Default::default()), DimensionEntry::Given)
+}
+
+fn data(fields: &mut Fields, reader: &mut Reader) -> Vec<(Name, Datum)> {
+    let Some(mut table) = fields.take("data").and_then(|field| field.table(reader)) else { return Vec::new() };
+    table.rest().iter().filter_map(|field| datum(field, reader).map(|datum| (name(field), datum))).collect()
+}
+
+fn datum(field: &Field, reader: &mut Reader) -> Option<Datum> {
+    match field.value {
+        DeValue::String(text) => Some(Datum::Text(text.to_string())),
+        DeValue::Integer(_) | DeValue::Float(_) => field.number(reader).map(Datum::Number),
+        _ => field.expected("a number or text", reader),
+    }
+}
+
+/// One rib.
+pub(super) fn rib(mut fields: Fields, reader: &mut Reader) -> Option<RibEntry> {
+    let place = fields.place;
+    let given = fields.require("name", "a rib", reader).and_then(|field| field.text(reader));
+    let what = given.as_ref().map_or("a rib".to_owned(), |name| format!("rib `{}`", name.text));
+    let (from, to) = ends(&mut fields, &what, reader);
+    let length = fields.require("length", &what, reader).and_then(|field| field.scalar(reader));
+    let law = fields.take("volume").and_then(|field| field.text(reader)).and_then(|written| law(&written, reader));
+    let data = data(&mut fields, reader);
+    fields.finish(reader);
+    let name = given.map_or(Name { text: String::new(), place }, |written| Name { text: written.text, place: written.place });
+    Some(RibEntry { name, from, to, length, law: law.unwrap_or_default(), data })
+}
+
+/// `from` and `to`, or `section` for both.
+fn ends(fields: &mut Fields, what: &str, reader: &mut Reader) -> (Option<Written>, Option<Written>) {
+    let mut text = |key| fields.take(key).and_then(|field| Some((field.key_place, field.text(reader)?)));
+    let (section, from, to) = (text("section"), text("from"), text("to"));
+    let place = fields.place;
+    match (section, from, to) {
+        (Some((_, section)), None, None) => (Some(section.clone()), Some(section)),
+        (None, Some((_, from)), Some((_, to))) => (Some(from), Some(to)),
+        (Some((place, _)), _, _) => {
+            reader.findings.mistake(place, format!("{what} has `section` and `from`/`to`"), "keep one of the two");
+            (None, None)
+        }
+        (None, from, to) => {
+            let lacking = if from.is_some() {
+                "`to`"
+            } else if to.is_some() {
+                "`from`"
+            } else {
+                "its sections"
+            };
+            let help = "give `from` and `to`, or `section` for the same one at both ends";
+            reader.findings.mistake(place, format!("{what} lacks {lacking}"), help);
+            (None, None)
+        }
+    }
+}
+
+/// A volume law by name.
+fn law(written: &Written, reader: &mut Reader) -> Option<VolumeLaw> {
+    let law = VolumeLaw::named(&written.text);
+    if law.is_none() {
+        let message = format!("unknown volume law `{}`", written.text);
+        reader.findings.mistake(written.place, message, "known: frustum, prismatoid");
+    }
+    law
+}

@@ -1,0 +1,197 @@
+//! One TOML table: its keys in the file's order, taken one by one; whatever is left in the end is unknown.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::findings::Findings;
+use super::source::{Place, Source, Written};
+use crate::problem::nearest::did_you_mean;
+
+/// A key and its value.
+#[derive(Clone)]
+pub(super) struct Field<'a> {
+    pub key: &'a str,
+    pub key_place: Place,
+    pub value: &'a DeValue<'a>,
+    pub place: Place,
+    range: std::ops::Range<usize>,
+}
+
+/// A number, or an expression that stands for one.
+#[derive(Debug, Clone)]
+pub(super) enum Scalar {
+    Number(f64, Place),
+    Expression(Written),
+}
+
+/// What a table's keys are read with.
+pub(super) struct Reader<'a> {
+    pub source: &'a Source,
+    pub findings: &'a mut Findings,
+}
+
+/// The fields of a table not yet taken.
+pub(super) struct Fields<'a> {
+    fields: Vec<Field<'a>>,
+    /// Every key the table knows, for help.
+    known: Vec<&'static str>,
+    /// Where the table stands.
+    pub place: Place,
+}
+
+impl<'a> Fields<'a> {
+    /// The fields of a table.
+    pub fn of(table: &'a DeTable<'a>, place: Place) -> Fields<'a> {
+        let mut fields: Vec<Field> = table.iter().map(|(key, value)| Field::of(key, value)).collect();
+        fields.sort_by_key(|field| field.key_place);
+        Fields { fields, known: Vec::new(), place }
+    }
+
+    /// A field by its key.
+    pub fn take(&mut self, key: &'static str) -> Option<Field<'a>> {
+        self.known.push(key);
+        let at = self.fields.iter().position(|field| field.key == key)?;
+        Some(self.fields.remove(at))
+    }
+
+    /// A field the table cannot do without.
+    pub fn require(&mut self, key: &'static str, what: &str, reader: &mut Reader) -> Option<Field<'a>> {
+        let field = self.take(key);
+        if field.is_none() {
+            reader.findings.mistake(self.place, format!("{what} needs `{key}`"), format!("add `{key} = …`"));
+        }
+        field
+    }
+
+    /// The rest, where keys are names of the user's choice.
+    pub fn rest(&mut self) -> Vec<Field<'a>> {
+        std::mem::take(&mut self.fields)
+    }
+
+    /// Every field left is a mistake.
+    pub fn finish(self, reader: &mut Reader) {
+        for field in &self.fields {
+            let help = did_you_mean(field.key, self.known.iter().copied());
+            let help = help.unwrap_or_else(|| format!("known here: {}", self.known.join(", ")));
+            reader.findings.mistake(field.key_place, format!("unknown key `{}`", field.key), help);
+        }
+    }
+}
+
+impl<'a> Field<'a> {
+    fn of(key: &'a Spanned<std::borrow::Cow<'a, str>>, value: &'a Spanned<DeValue<'a>>) -> Field<'a> {
+        let (key_place, place) = (Place::file(key.span()), Place::file(value.span()));
+        Field { key: key.get_ref(), key_place, value: value.get_ref(), place, range: value.span() }
+    }
+
+    /// An item of an array, under the array's key.
+    fn item(&self, value: &'a Spanned<DeValue<'a>>) -> Field<'a> {
+        let place = Place::file(value.span());
+        Field { key: self.key, key_place: self.key_place, value: value.get_ref(), place, range: value.span() }
+    }
+
+    /// The number, if the value is one.
+    pub fn as_number(&self) -> Option<f64> {
+        match self.value {
+            DeValue::Integer(integer) => match integer.radix() {
+                10 => integer.as_str().parse().ok(),
+                radix => i128::from_str_radix(integer.as_str(), radix).ok().map(|value| value as f64),
+            },
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// A text.
+    pub fn text(&self, reader: &mut Reader) -> Option<Written> {
+        match self.value {
+            DeValue::String(text) => Some(Written::of(&reader.source.text, self.range.clone(), text)),
+            _ => self.expected("text in quotes", reader),
+        }
+    }
+
+    /// A number that is one: no NaN.
+    pub fn number(&self, reader: &mut Reader) -> Option<f64> {
+        match self.as_number() {
+            Some(number) if number.is_nan() => {
+                reader.findings.mistake(self.place, format!("`{}` is no number", self.key), "give a number");
+                None
+            }
+            Some(number) => Some(number),
+            None => self.expected("a number", reader),
+        }
+    }
+
+    /// A number or an expression.
+    pub fn scalar(&self, reader: &mut Reader) -> Option<Scalar> {
+        match self.value {
+            DeValue::String(_) => self.text(reader).map(Scalar::Expression),
+            DeValue::Integer(_) | DeValue::Float(_) => self.number(reader).map(|value| Scalar::Number(value, self.place)),
+            _ => self.expected("a number or an expression in quotes", reader),
+        }
+    }
+
+    /// The items of an array.
+    pub fn items(&self) -> Option<Vec<Field<'a>>> {
+        match self.value {
+            DeValue::Array(array) => Some(array.iter().map(|value| self.item(value)).collect()),
+            _ => None,
+        }
+    }
+
+    /// An array of texts; a single text passes for one.
+    pub fn texts(&self, reader: &mut Reader) -> Vec<Written> {
+        match self.items() {
+            Some(items) => items.iter().filter_map(|item| item.text(reader)).collect(),
+            None => self.text(reader).into_iter().collect(),
+        }
+    }
+
+    /// The fields of a table.
+    pub fn table(&self, reader: &mut Reader) -> Option<Fields<'a>> {
+        match self.value {
+            DeValue::Table(table) => Some(Fields::of(table, self.key_place)),
+            _ => self.expected("a table", reader),
+        }
+    }
+
+    /// The tables of `[[key]]`.
+    pub fn tables(&self, reader: &mut Reader) -> Vec<Fields<'a>> {
+        let Some(items) = self.items() else {
+            let message = format!("`{}` is a list of tables", self.key);
+            reader.findings.mistake(self.key_place, message, format!("write [[{}]] with two brackets", self.key));
+            return Vec::new();
+        };
+        items.iter().filter_map(|item| item.table_at(item.place, reader)).collect()
+    }
+
+    fn table_at(&self, place: Place, reader: &mut Reader) -> Option<Fields<'a>> {
+        let mut fields = self.table(reader)?;
+        fields.place = place;
+        Some(fields)
+    }
+
+    /// The mistake of a value of another type.
+    pub fn expected<T>(&self, what: &str, reader: &mut Reader) -> Option<T> {
+        let found = match self.value {
+            DeValue::String(_) => "text",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "an array",
+            DeValue::Table(_) => "a table",
+        };
+        reader.findings.mistake(self.place, format!("`{}` is {found}", self.key), format!("expected {what}"));
+        None
+    }
+}
+
+impl Scalar {
+    /// Where it stands.
+    pub fn place(&self) -> Place {
+        match self {
+            Scalar::Number(_, place) => *place,
+            Scalar::Expression(written) => written.place,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Collects mistakes and warnings while the file is read, and gives them their lines in the end.
+
+use std::path::PathBuf;
+
+use super::mistake::{Mistake, Mistakes, SHOWN};
+use super::source::{Place, Source};
+use super::table_lines;
+
+/// Findings kept; a file with more is beyond repair, and they are only counted.
+const KEPT: usize = 1000;
+
+struct Finding {
+    place: Place,
+    message: String,
+    help: Option<String>,
+}
+
+/// The mistakes and warnings so far.
+#[derive(Default)]
+pub(super) struct Findings {
+    mistakes: Vec<Finding>,
+    uncounted: usize,
+    warnings: Vec<Finding>,
+    /// CSV tables by number: the file, and the name shown.
+    pub tables: Vec<(PathBuf, String)>,
+}
+
+impl Findings {
+    /// Something wrong.
+    pub fn mistake(&mut self, place: Place, message: impl Into<String>, help: impl Into<Help>) {
+        if self.mistakes.len() < KEPT {
+            self.mistakes.push(Finding { place, message: message.into(), help: help.into().0 });
+        } else {
+            self.uncounted += 1;
+        }
+    }
+
+    /// Something the user should hear of.
+    pub fn warning(&mut self, place: Place, message: impl Into<String>, help: impl Into<Help>) {
+        if self.warnings.len() < KEPT {
+            self.warnings.push(Finding { place, message: message.into(), help: help.into().0 });
+        }
+    }
+
+    /// True while nothing is wrong.
+    pub fn clean(&self) -> bool {
+        self.mistakes.is_empty()
+    }
+
+    /// Forgets mistakes that begin on one of these lines: there the text itself is broken.
+    pub fn forget_lines(&mut self, source: &Source, lines: &[usize]) {
+        self.mistakes.retain(|finding| match finding.place {
+            Place::File { start, .. } => !lines.contains(&source.line(start as usize)),
+            _ => true,
+        });
+    }
+
+    /// The mistakes with their lines, in the order in which they stand.
+    pub fn into_parts(self, source: &Source, arguments: &[String]) -> (Mistakes, Vec<Mistake>) {
+        let (list, cut) = self.placed(self.mistakes.iter().collect(), source, arguments);
+        let (warnings, _) = self.placed(self.warnings.iter().collect(), source, arguments);
+        (Mistakes { list, more: cut + self.uncounted }, warnings)
+    }
+
+    /// The first of the findings in the file's order, each once, and how many are left out.
+    fn placed(&self, mut findings: Vec<&Finding>, source: &Source, arguments: &[String]) -> (Vec<Mistake>, usize) {
+        findings.sort_by_key(|finding| finding.place);
+        findings.dedup_by(|a, b| a.place == b.place && a.message == b.message);
+        let cut = findings.len().saturating_sub(SHOWN);
+        findings.truncate(SHOWN);
+        let wanted = |number: usize| {
+            let of_table = move |finding: &&Finding| match finding.place {
+                Place::Row { table, line, .. } if table as usize == number => Some(line as usize),
+                _ => None,
+            };
+            findings.iter().filter_map(of_table).collect::<Vec<usize>>()
+        };
+        let rows: Vec<_> =
+            self.tables.iter().enumerate().map(|(number, (path, _))| table_lines::read(path, &wanted(number))).collect();
+        (findings.iter().map(|finding| self.place(finding, source, arguments, &rows)).collect(), cut)
+    }
+
+    fn place(&self, finding: &Finding, source: &Source, arguments: &[String], rows: &[table_lines::Lines]) -> Mistake {
+        let (message, help) = (finding.message.clone(), finding.help.clone());
+        match finding.place {
+            Place::File { start, end } => source.mistake(start as usize..end as usize, message, help),
+            Place::Argument { number, start, end } => {
+                let text = arguments.get(number as usize).cloned().unwrap_or_default();
+                let argument = Source { name: "--set".into(), text };
+                argument.mistake(start as usize..end as usize, message, help)
+            }
+            Place::Row { table, line, field } => {
+                let text = rows.get(table as usize).and_then(|lines| lines.get(&(line as usize))).cloned().unwrap_or_default();
+                let caret = table_lines::field(&text, field);
+                let file = self.tables.get(table as usize).map(|(_, name)| name.clone()).unwrap_or_default();
+                Mistake { file, line: line as usize, column: caret.start + 1, text, caret, message, help }
+            }
+            Place::Whole => {
+                Mistake { file: source.name.clone(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help }
+            }
+        }
+    }
+}
+
+/// What may stand for a help: a text, or nothing.
+pub(super) struct Help(Option<String>);
+
+impl From<&str> for Help {
+    fn from(text: &str) -> Help {
+        Help(Some(text.to_owned()))
+    }
+}
+
+impl From<String> for Help {
+    fn from(text: String) -> Help {
+        Help(Some(text))
+    }
+}
+
+impl From<Option<String>> for Help {
+    fn from(text: Option<String>) -> Help {
+        Help(text)
+    }
+}

@@ -1,0 +1,156 @@
+//! A CSV table read row by row; its bytes go into the checksum on the way.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use csv::StringRecord;
+use sha2::{Digest, Sha256};
+
+use super::findings::Findings;
+use super::load::reason;
+use super::source::{Place, Written};
+
+/// An open table.
+pub(super) struct Table<'a> {
+    reader: csv::Reader<Summed<'a>>,
+    record: StringRecord,
+    /// Column names.
+    pub headers: Vec<String>,
+    number: u8,
+}
+
+/// One row.
+pub(super) struct Row<'r> {
+    record: &'r StringRecord,
+    line: u32,
+    table: u8,
+}
+
+/// A reader that adds what it reads to a checksum.
+struct Summed<'a> {
+    file: File,
+    checksum: &'a mut Sha256,
+}
+
+impl Read for Summed<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        self.checksum.update(&buffer[..count]);
+        Ok(count)
+    }
+}
+
+impl<'a> Table<'a> {
+    /// Opens the table `written` names, beside the problem file; `None` after a mistake.
+    pub fn open(written: &Written, folder: &Path, checksum: &'a mut Sha256, findings: &mut Findings) -> Option<Table<'a>> {
+        let path = folder.join(&written.text);
+        let opened = File::open(&path).and_then(|file| match file.metadata()?.is_dir() {
+            true => Err(io::ErrorKind::IsADirectory.into()),
+            false => Ok(file),
+        });
+        let file = match opened {
+            Ok(file) => file,
+            Err(error) => {
+                let (cause, _) = reason(&error);
+                let message = format!("cannot read the table {}: {cause}", path.display());
+                findings.mistake(written.place, message, "the path is taken from the problem file's folder");
+                return None;
+            }
+        };
+        let number = findings.tables.len() as u8;
+        findings.tables.push((path.clone(), path.display().to_string()));
+        let reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .buffer_capacity(1 << 18)
+            .from_reader(Summed { file, checksum });
+        let mut table = Table { reader, record: StringRecord::new(), headers: Vec::new(), number };
+        table.read_headers(findings)?;
+        Some(table)
+    }
+
+    fn read_headers(&mut self, findings: &mut Findings) -> Option<()> {
+        let place = self.place(1, Place::WHOLE_ROW);
+        match self.reader.read_record(&mut self.record) {
+            Ok(true) => {}
+            Ok(false) => {
+                findings.mistake(place, "the table is empty", "its first line names the columns");
+                return None;
+            }
+            Err(error) => {
+                findings.mistake(place, said(&error), "save the table as UTF-8 text");
+                return None;
+            }
+        }
+        let names = self.record.iter().map(|name| name.trim_start_matches('\u{feff}').trim().to_owned());
+        self.headers = names.collect();
+        for (at, name) in self.headers.iter().enumerate() {
+            let place = self.place(1, at as u16);
+            if name.is_empty() {
+                findings.mistake(place, "a column without a name", "name it or remove it");
+            } else if self.headers[..at].contains(name) {
+                findings.mistake(place, format!("two columns are called `{name}`"), "keep one of them");
+            }
+        }
+        Some(())
+    }
+
+    /// The next whole row; ragged ones and those that are no text are mistakes and passed over.
+    pub fn next(&mut self, findings: &mut Findings) -> Option<Row<'_>> {
+        loop {
+            let outcome = self.reader.read_record(&mut self.record);
+            let line = self.line();
+            match outcome {
+                Ok(false) => return None,
+                Ok(true) if self.record.len() == self.headers.len() => break,
+                Ok(true) => {
+                    let (found, expected) = (self.record.len(), self.headers.len());
+                    let message = format!("this row has {found} fields, the header {expected}");
+                    findings.mistake(self.place(line, Place::WHOLE_ROW), message, "empty cells still need their commas");
+                }
+                Err(error) => {
+                    findings.mistake(self.place(line, Place::WHOLE_ROW), said(&error), "save the table as UTF-8 text");
+                    if !matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) {
+                        return None;
+                    }
+                }
+            }
+        }
+        Some(Row { line: self.line(), record: &self.record, table: self.number })
+    }
+
+    /// The line on which the last record ends, which for a record without line breaks is its line.
+    fn line(&self) -> u32 {
+        self.record.position().map_or(0, |position| position.line() as u32)
+    }
+
+    /// A field of a line.
+    pub fn place(&self, line: u32, field: u16) -> Place {
+        Place::Row { table: self.number, line, field }
+    }
+}
+
+impl Row<'_> {
+    /// The text of a field, blanks around it taken off.
+    pub fn field(&self, at: usize) -> &str {
+        self.record.get(at).unwrap_or("").trim()
+    }
+
+    /// Where a field stands.
+    pub fn place(&self, at: usize) -> Place {
+        Place::Row { table: self.table, line: self.line, field: at as u16 }
+    }
+
+    /// The field as an expression.
+    pub fn written(&self, at: usize) -> Written {
+        Written { text: self.field(at).to_owned(), place: self.place(at), inside: None }
+    }
+}
+
+fn said(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::Utf8 { .. } => "this row is not UTF-8 text".to_owned(),
+        _ => format!("the table cannot be read on: {error}"),
+    }
+}

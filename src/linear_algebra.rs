@@ -1,1 +1,0 @@
-//! Sparse symmetric indefinite factorisation, by a library.

@@ -1,0 +1,8 @@
+//! Sparse symmetric indefinite factorisation, by a library (feral), behind an interface of our own.
+//!
+//! A leaf: it knows index slices and values, nothing of models. Patterns are lower triangles compressed by rows,
+//! the layout of [`crate::model::Pattern`], so `SymmetricSolver::new(&pattern.offsets, &pattern.columns)` fits one.
+
+mod symmetric;
+
+pub use symmetric::{FactorizationError, Inertia, SymmetricSolver};

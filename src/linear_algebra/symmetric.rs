@@ -1,0 +1,204 @@
+//! LDLᵀ of a sparse symmetric indefinite matrix: analyse once, factorise often, solve with refinement.
+
+use feral::numeric::solver::FactorStatus;
+use feral::{CscMatrix, RefineOptions, Solver};
+use thiserror::Error;
+
+/// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Inertia {
+    /// n₊
+    pub positive: usize,
+    /// n₋
+    pub negative: usize,
+    /// n₀
+    pub zero: usize,
+}
+
+/// Why there is no factorisation or no solution.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum FactorizationError {
+    /// Offsets, columns or slices do not fit together.
+    #[error("the pattern is no lower triangle by rows: {0}")]
+    Pattern(String),
+    /// The matrix is singular so badly that no factors exist.
+    #[error("the matrix is singular")]
+    Singular,
+    /// The library refused, most often because a value was no number.
+    #[error("the factorisation failed: {0}")]
+    Library(String),
+}
+
+/// A factorisation that keeps its symbolic analysis from one set of values to the next.
+///
+/// ```
+/// use ribopt::linear_algebra::{Inertia, SymmetricSolver};
+/// // [ 2 1 ]
+/// // [ 1 0 ]  lower triangle by rows: (0,0), (1,0), (1,1)
+/// let mut solver = SymmetricSolver::new(&[0, 1, 3], &[0, 0, 1]).unwrap();
+/// let inertia = solver.factor(&[2.0, 1.0, 0.0]).unwrap();
+/// assert_eq!(inertia, Inertia { positive: 1, negative: 1, zero: 0 });
+/// let mut x = [0.0; 2];
+/// solver.solve(&[3.0, 1.0], &mut x).unwrap();
+/// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 1.0).abs() < 1e-15);
+/// ```
+pub struct SymmetricSolver {
+    /// The library's layout: lower triangle by columns.
+    matrix: CscMatrix,
+    /// Where each position of the caller's pattern stands there.
+    places: Vec<usize>,
+    solver: Solver,
+}
+
+impl SymmetricSolver {
+    /// A solver for matrices whose lower triangle has, in row i, the columns `columns[offsets[i]..offsets[i + 1]]`
+    /// (ascending, at most i). Diagonal positions may be left out.
+    pub fn new(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
+        check(offsets, columns)?;
+        let n = offsets.len() - 1;
+        let mut starts = vec![0; n + 1];
+        for &column in columns {
+            starts[column as usize + 1] += 1;
+        }
+        for j in 0..n {
+            starts[j + 1] += starts[j];
+        }
+        let mut next = starts.clone();
+        let mut rows = vec![0; columns.len()];
+        let mut places = vec![0; columns.len()];
+        for row in 0..n {
+            for at in offsets[row]..offsets[row + 1] {
+                let place = &mut next[columns[at] as usize];
+                rows[*place] = row;
+                places[at] = *place;
+                *place += 1;
+            }
+        }
+        let matrix = CscMatrix { n, col_ptr: starts, row_idx: rows, values: vec![0.0; columns.len()] };
+        Ok(SymmetricSolver { matrix, places, solver: Solver::new() })
+    }
+
+    /// The order n of the matrix.
+    pub fn order(&self) -> usize {
+        self.matrix.n
+    }
+
+    /// Factorises the matrix with these values along the pattern. The analysis is done at the first call and kept.
+    pub fn factor(&mut self, values: &[f64]) -> Result<Inertia, FactorizationError> {
+        if values.len() != self.places.len() {
+            let sizes = format!("{} values for {} positions", values.len(), self.places.len());
+            return Err(FactorizationError::Pattern(sizes));
+        }
+        if self.order() == 0 {
+            return Ok(Inertia { positive: 0, negative: 0, zero: 0 });
+        }
+        for (&place, &value) in self.places.iter().zip(values) {
+            self.matrix.values[place] = value;
+        }
+        match self.solver.factor(&self.matrix, None) {
+            FactorStatus::Success | FactorStatus::WrongInertia { .. } => self.inertia().ok_or(FactorizationError::Singular),
+            FactorStatus::Singular => Err(FactorizationError::Singular),
+            FactorStatus::FatalError(error) => Err(FactorizationError::Library(error.to_string())),
+        }
+    }
+
+    /// x = A⁻¹·right for the matrix factorised last, refined until its residual is down to rounding.
+    pub fn solve(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+        if self.order() == 0 {
+            return Ok(());
+        }
+        self.solver
+            .solve_refined_into(&self.matrix, right, x, RefineOptions::default())
+            .map_err(|error| FactorizationError::Library(error.to_string()))
+    }
+
+    fn inertia(&self) -> Option<Inertia> {
+        let inertia = self.solver.inertia()?;
+        Some(Inertia { positive: inertia.positive, negative: inertia.negative, zero: inertia.zero })
+    }
+}
+
+fn check(offsets: &[usize], columns: &[u32]) -> Result<(), FactorizationError> {
+    let wrong = |what: String| Err(FactorizationError::Pattern(what));
+    if offsets.first() != Some(&0) || offsets.last() != Some(&columns.len()) {
+        return wrong(format!("offsets must run from 0 to {}", columns.len()));
+    }
+    for (row, bounds) in offsets.windows(2).enumerate() {
+        let Some(own) = columns.get(bounds[0]..bounds[1]) else {
+            return wrong(format!("the offsets of row {row} do not ascend"));
+        };
+        if own.windows(2).any(|pair| pair[0] >= pair[1]) || own.last().is_some_and(|&last| last as usize > row) {
+            return wrong(format!("row {row} must have ascending columns up to {row}"));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lower triangle of a dense symmetric matrix, zeros left out.
+    fn sparse(rows: &[&[f64]]) -> (Vec<usize>, Vec<u32>, Vec<f64>) {
+        let (mut offsets, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+        for (i, row) in rows.iter().enumerate() {
+            for (j, &value) in row.iter().enumerate().take(i + 1).filter(|(_, value)| **value != 0.0) {
+                columns.push(j as u32);
+                values.push(value);
+            }
+            offsets.push(columns.len());
+        }
+        (offsets, columns, values)
+    }
+
+    #[test]
+    fn a_kkt_matrix_has_the_inertia_of_its_blocks() {
+        let (offsets, columns, values) = sparse(&[&[4.0], &[1.0, 3.0], &[0.0, 0.0, 5.0], &[1.0, 1.0, 1.0, 0.0]]);
+        let mut solver = SymmetricSolver::new(&offsets, &columns).unwrap();
+        assert_eq!(solver.factor(&values).unwrap(), Inertia { positive: 3, negative: 1, zero: 0 });
+        let mut x = vec![0.0; 4];
+        solver.solve(&[1.0, 2.0, 3.0, 4.0], &mut x).unwrap();
+        let residual = [4.0 * x[0] + x[1] + x[3] - 1.0, x[0] + 3.0 * x[1] + x[3] - 2.0, 5.0 * x[2] + x[3] - 3.0];
+        assert!(residual.iter().all(|r| r.abs() < 1e-14), "{residual:?}");
+        assert!((x[0] + x[1] + x[2] - 4.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn dependent_rows_are_seen_as_zero_eigenvalues_or_singular() {
+        let (offsets, columns, values) = sparse(&[&[1.0], &[0.0, 1.0], &[1.0, 1.0, 0.0], &[1.0, 1.0, 0.0, 0.0]]);
+        let mut solver = SymmetricSolver::new(&offsets, &columns).unwrap();
+        match solver.factor(&values) {
+            Ok(inertia) => assert!(inertia.zero >= 1, "{inertia:?}"),
+            Err(error) => assert_eq!(error, FactorizationError::Singular),
+        }
+    }
+
+    #[test]
+    fn new_values_reuse_the_analysis() {
+        let mut solver = SymmetricSolver::new(&[0, 1, 3], &[0, 0, 1]).unwrap();
+        for scale in [1.0, -2.0, 1e-9] {
+            solver.factor(&[2.0 * scale, scale, 3.0 * scale]).unwrap();
+            let mut x = [0.0; 2];
+            solver.solve(&[3.0 * scale, 4.0 * scale], &mut x).unwrap();
+            assert!((x[0] - 1.0).abs() < 1e-14 && (x[1] - 1.0).abs() < 1e-14, "{x:?}");
+        }
+        assert_eq!(solver.solver.symbolic_call_count(), 1);
+    }
+
+    #[test]
+    fn no_number_and_wrong_shapes_are_errors() {
+        assert!(matches!(SymmetricSolver::new(&[0, 1], &[1]), Err(FactorizationError::Pattern(_))));
+        assert!(matches!(SymmetricSolver::new(&[0, 2, 1], &[0]), Err(FactorizationError::Pattern(_))));
+        assert!(matches!(SymmetricSolver::new(&[], &[]), Err(FactorizationError::Pattern(_))));
+        let mut solver = SymmetricSolver::new(&[0, 1], &[0]).unwrap();
+        assert!(matches!(solver.factor(&[f64::NAN]), Err(FactorizationError::Library(_))));
+        assert!(matches!(solver.factor(&[]), Err(FactorizationError::Pattern(_))));
+    }
+
+    #[test]
+    fn the_empty_matrix_is_fine() {
+        let mut solver = SymmetricSolver::new(&[0], &[]).unwrap();
+        assert_eq!(solver.factor(&[]).unwrap(), Inertia { positive: 0, negative: 0, zero: 0 });
+        solver.solve(&[], &mut []).unwrap();
+    }
+}

@@ -1,0 +1,129 @@
+//! The iteration log: one CSV row per iteration, on disk as soon as it is known.
+
+use std::fs::File;
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::backends::Iteration;
+
+/// Up to this many variables, each has a column of its own.
+pub const MOST_VARIABLE_COLUMNS: usize = 50;
+
+const COLUMNS: [&str; 7] = ["iteration", "evaluations", "objective", "feasibility", "optimality", "step_norm", "seconds"];
+
+/// `log-<backend>.csv` while the run goes on.
+///
+/// Every row reaches the file in one piece; a row that does not fit on the disk is taken back, so that a reader only
+/// ever meets whole rows. The first error ends the log, not the run.
+#[derive(Debug)]
+pub struct IterationLog {
+    path: PathBuf,
+    file: File,
+    with_variables: bool,
+    begun: Instant,
+    failure: Option<io::Error>,
+}
+
+impl IterationLog {
+    /// Opens the log and writes its header.
+    ///
+    /// # Errors
+    /// Where the file cannot be made or written to.
+    pub fn create(path: &Path, variables: usize, name: impl Fn(usize) -> String) -> io::Result<IterationLog> {
+        let with_variables = variables <= MOST_VARIABLE_COLUMNS;
+        let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
+        if with_variables {
+            header.extend((0..variables).map(name));
+        }
+        let mut file = File::create(path)?;
+        write_row(&mut file, &header)?;
+        Ok(IterationLog { path: path.into(), file, with_variables, begun: Instant::now(), failure: None })
+    }
+
+    /// Seconds count from here.
+    pub fn begin(&mut self) {
+        self.begun = Instant::now();
+    }
+
+    /// Adds a row.
+    pub fn add(&mut self, iteration: &Iteration<'_>) {
+        if self.failure.is_some() {
+            return;
+        }
+        let mut row = vec![iteration.iteration.to_string(), iteration.evaluations.to_string()];
+        let seconds = self.begun.elapsed().as_secs_f64();
+        let numbers = [iteration.objective, iteration.feasibility, iteration.optimality, iteration.step_norm, seconds];
+        row.extend(numbers.map(exact));
+        if self.with_variables {
+            row.extend(iteration.x.iter().copied().map(exact));
+        }
+        self.failure = write_row(&mut self.file, &row).err();
+    }
+
+    /// Why the log ends early, if it does.
+    pub fn failure(&self) -> Option<String> {
+        let cause = self.failure.as_ref()?;
+        Some(format!("{} ends early: {cause}; the answer is not affected", self.path.display()))
+    }
+}
+
+/// The shortest text that reads back as the same `f64`, bit for bit; empty for NaN, `inf` and `-inf` for infinities.
+///
+/// ```
+/// assert_eq!(ribopt::log::exact(0.1), "0.1");
+/// assert_eq!(ribopt::log::exact(1e300), "1e300");
+/// ```
+pub fn exact(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
+}
+
+fn write_row(file: &mut File, cells: &[String]) -> io::Result<()> {
+    let mut row = csv::WriterBuilder::new().from_writer(Vec::new());
+    row.write_record(cells)?;
+    let bytes = row.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+    let end = file.stream_position()?;
+    file.write_all(&bytes).inspect_err(|_| {
+        // Part of a row may be there; if even this fails, nothing more can be done.
+        let _ = file.set_len(end);
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn logged(x: &[f64], objective: f64) -> (Vec<String>, Vec<csv::StringRecord>) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("log-argmin.csv");
+        let mut log = IterationLog::create(&path, x.len(), |j| format!("x[{}], in m", j + 1)).unwrap();
+        let row =
+            Iteration { iteration: 3, evaluations: 7, objective, feasibility: 0.1, optimality: f64::NAN, step_norm: 0.2, x };
+        log.add(&row);
+        assert!(log.failure().is_none());
+        let mut reader = csv::Reader::from_path(&path).unwrap();
+        let header = reader.headers().unwrap().iter().map(String::from).collect();
+        (header, reader.records().map(Result::unwrap).collect())
+    }
+
+    proptest! {
+        #[test]
+        fn rows_read_back_bit_for_bit(x in prop::collection::vec(proptest::num::f64::NORMAL, 1..5), f in proptest::num::f64::NORMAL) {
+            let (header, rows) = logged(&x, f);
+            prop_assert_eq!(header.len(), COLUMNS.len() + x.len());
+            prop_assert_eq!(rows[0][2].parse::<f64>().unwrap().to_bits(), f.to_bits());
+            for (j, value) in x.iter().enumerate() {
+                prop_assert_eq!(rows[0][COLUMNS.len() + j].parse::<f64>().unwrap().to_bits(), value.to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_fifty_variables_there_are_no_variable_columns() {
+        let (header, rows) = logged(&[1.0; 51], 1.0);
+        assert_eq!(header, COLUMNS);
+        assert_eq!(rows[0].len(), COLUMNS.len());
+        assert_eq!(&rows[0][4], "", "an unknown number is an empty cell");
+    }
+}

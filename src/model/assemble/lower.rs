@@ -1,0 +1,364 @@
+//! From resolved formulas to expression graphs over local slots.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::expression::ast::Collection;
+use crate::expression::graph::{Graph, NodeId};
+use crate::expression::operators::{Binary, Fold};
+use crate::problem::formula::{End, Formula, Members, Total};
+use crate::problem::{Cells, Column, Dimension, Problem, Property};
+use crate::ribs::law::{self, Law};
+use crate::sections::{self, Given};
+
+/// Whose own names a formula speaks of, and which items its group has.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub item: Item,
+    /// Members of the row's group, for folds over [`Members::Group`].
+    pub group: &'a [u32],
+}
+
+/// The item of a scope.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Item {
+    None,
+    Section(u32),
+    Rib(u32),
+}
+
+impl Context<'_> {
+    pub const GLOBAL: Context<'static> = Context { item: Item::None, group: &[] };
+
+    pub fn of(self, item: Item) -> Self {
+        Context { item, ..self }
+    }
+}
+
+/// The number in a data column; NaN where there is none (the reader refuses to use such a cell).
+pub(super) fn cell(columns: &[Column], column: u32, row: u32) -> f64 {
+    match columns.get(column as usize).map(|column| &column.cells) {
+        Some(Cells::Numbers(numbers)) => numbers[row as usize],
+        _ => f64::NAN,
+    }
+}
+
+/// The items a fold runs over.
+pub(super) fn members<'a>(problem: &Problem, collection: Collection, members: &'a Members, context: Context<'a>) -> Vec<u32> {
+    match members {
+        Members::Listed(list) => list.to_vec(),
+        Members::All => (0..count(problem, collection)).collect(),
+        Members::Group(None) => context.group.to_vec(),
+        Members::Group(Some(list)) => context.group.iter().copied().filter(|item| list.binary_search(item).is_ok()).collect(),
+    }
+}
+
+fn count(problem: &Problem, collection: Collection) -> u32 {
+    match collection {
+        Collection::Ribs => problem.ribs.names.len() as u32,
+        Collection::Sections => problem.sections.names.len() as u32,
+    }
+}
+
+/// The item a member of a collection is.
+pub(super) fn item_of(collection: Collection, index: u32) -> Item {
+    match collection {
+        Collection::Ribs => Item::Rib(index),
+        Collection::Sections => Item::Section(index),
+    }
+}
+
+/// The law a rib of this declaration follows under a total.
+pub(super) fn law_of(problem: &Problem, rib: u32, total: Total) -> Law {
+    match (total, problem.ribs.law[rib as usize]) {
+        (Total::Frustum, _) | (Total::Own, crate::problem::VolumeLaw::Frustum) => Law::Frustum,
+        _ => Law::Prismatoid,
+    }
+}
+
+/// Builds graphs whose inputs and data are local slots, so that items of one shape share what is compiled.
+pub(super) struct Lowering<'a> {
+    pub problem: &'a Problem,
+    pub graph: Graph,
+    /// Variable of each input slot.
+    pub variables: Vec<u32>,
+    slots: HashMap<u32, u32>,
+    /// Number of each data slot.
+    pub numbers: Vec<f64>,
+    /// Dimension nodes of sections named in the item's scope (own, from, to): their numbers are data.
+    own_sections: HashMap<u32, Rc<[NodeId]>>,
+    /// Dimension nodes of sections named globally: their numbers are literals.
+    sections: HashMap<u32, Rc<[NodeId]>>,
+    own_numbers: HashMap<(Item, OwnNumber), NodeId>,
+    definitions: HashMap<u32, NodeId>,
+}
+
+/// A number of the item itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum OwnNumber {
+    Length,
+    Data(u32),
+    EndData(End, u32),
+}
+
+impl OwnNumber {
+    /// Its value for an item.
+    pub fn of(self, problem: &Problem, item: Item) -> f64 {
+        match (self, item) {
+            (OwnNumber::Length, Item::Rib(rib)) => problem.ribs.length[rib as usize],
+            (OwnNumber::Data(column), Item::Rib(rib)) => cell(&problem.ribs.data, column, rib),
+            (OwnNumber::Data(column), Item::Section(section)) => cell(&problem.sections.data, column, section),
+            (OwnNumber::EndData(end, column), Item::Rib(rib)) => {
+                cell(&problem.sections.data, column, end_section(problem, rib, end))
+            }
+            // The reader resolves own names only inside their scope.
+            _ => f64::NAN,
+        }
+    }
+}
+
+impl<'a> Lowering<'a> {
+    pub fn new(problem: &'a Problem) -> Self {
+        Lowering {
+            problem,
+            graph: Graph::new(),
+            variables: Vec::new(),
+            slots: HashMap::new(),
+            numbers: Vec::new(),
+            own_sections: HashMap::new(),
+            sections: HashMap::new(),
+            own_numbers: HashMap::new(),
+            definitions: HashMap::new(),
+        }
+    }
+
+    /// The input slot of a variable, given out in order of first use.
+    pub fn variable(&mut self, variable: u32) -> NodeId {
+        let variables = &mut self.variables;
+        let slot = *self.slots.entry(variable).or_insert_with(|| {
+            variables.push(variable);
+            variables.len() as u32 - 1
+        });
+        self.graph.input(slot)
+    }
+
+    /// The data slot of a number of the item.
+    pub fn own_number(&mut self, item: Item, which: OwnNumber) -> NodeId {
+        if let Some(&node) = self.own_numbers.get(&(item, which)) {
+            return node;
+        }
+        let node = self.number(which.of(self.problem, item));
+        self.own_numbers.insert((item, which), node);
+        node
+    }
+
+    fn number(&mut self, number: f64) -> NodeId {
+        self.numbers.push(number);
+        self.graph.data(self.numbers.len() as u32 - 1)
+    }
+
+    /// Gives out the slots of a section of the item, before anything else is lowered.
+    pub fn own_section(&mut self, section: u32) -> Rc<[NodeId]> {
+        if let Some(nodes) = self.own_sections.get(&section) {
+            return Rc::clone(nodes);
+        }
+        let dimensions = self.problem.dimensions(section as usize);
+        let nodes: Rc<[NodeId]> = dimensions
+            .iter()
+            .map(|&dimension| match dimension {
+                Dimension::Constant(value) => self.number(value),
+                other => self.dimension(section, other),
+            })
+            .collect();
+        self.own_sections.insert(section, Rc::clone(&nodes));
+        nodes
+    }
+
+    fn named_section(&mut self, section: u32) -> Rc<[NodeId]> {
+        if let Some(nodes) = self.sections.get(&section) {
+            return Rc::clone(nodes);
+        }
+        let dimensions = self.problem.dimensions(section as usize);
+        let nodes: Rc<[NodeId]> = dimensions.iter().map(|&dimension| self.dimension(section, dimension)).collect();
+        self.sections.insert(section, Rc::clone(&nodes));
+        nodes
+    }
+
+    fn dimension(&mut self, section: u32, dimension: Dimension) -> NodeId {
+        match dimension {
+            Dimension::Constant(value) => self.graph.constant(value),
+            Dimension::Variable(variable) => self.variable(variable),
+            Dimension::Formula(formula) => {
+                let problem = self.problem;
+                let context = Context { item: Item::Section(section), group: &[] };
+                self.formula(&problem.dimension_formulas[formula as usize], context)
+            }
+        }
+    }
+
+    /// The graph of a formula.
+    pub fn formula(&mut self, formula: &Formula, context: Context) -> NodeId {
+        match formula {
+            Formula::Constant(value) => self.graph.constant(*value),
+            Formula::Variable(variable) => self.variable(*variable),
+            Formula::Definition(definition) => self.definition(*definition),
+            Formula::Unary(op, inner) => {
+                let inner = self.formula(inner, context);
+                self.graph.unary(*op, inner)
+            }
+            Formula::Binary(op, left, right) => {
+                let (left, right) = (self.formula(left, context), self.formula(right, context));
+                self.graph.binary(*op, left, right)
+            }
+            Formula::Fold(fold, list) => {
+                let nodes: Vec<NodeId> = list.iter().map(|one| self.formula(one, context)).collect();
+                self.fold(*fold, &nodes)
+            }
+            Formula::Over { fold, collection, members: which, body } => {
+                let nodes: Vec<NodeId> = members(self.problem, *collection, which, context)
+                    .into_iter()
+                    .map(|index| self.formula(body, context.of(item_of(*collection, index))))
+                    .collect();
+                self.fold(*fold, &nodes)
+            }
+            Formula::SectionProperty(section, property) => {
+                let dimensions = self.named_section(*section);
+                self.property(*section, &dimensions, property)
+            }
+            Formula::RibVolume(rib) => self.rib_volume(*rib, law_of(self.problem, *rib, Total::Own)),
+            Formula::Volume(total) => self.volume(*total),
+            own => self.own(own, context),
+        }
+    }
+
+    fn definition(&mut self, definition: u32) -> NodeId {
+        if let Some(&node) = self.definitions.get(&definition) {
+            return node;
+        }
+        let problem = self.problem;
+        let node = self.formula(&problem.definitions[definition as usize].1, Context::GLOBAL);
+        self.definitions.insert(definition, node);
+        node
+    }
+
+    fn volume(&mut self, total: Total) -> NodeId {
+        let nodes: Vec<NodeId> = (0..count(self.problem, Collection::Ribs))
+            .map(|rib| self.rib_volume(rib, law_of(self.problem, rib, total)))
+            .collect();
+        self.graph.sum(&nodes)
+    }
+
+    /// Names that speak of the item.
+    fn own(&mut self, formula: &Formula, context: Context) -> NodeId {
+        let problem = self.problem;
+        match (formula, context.item) {
+            (Formula::OwnProperty(property), Item::Section(section)) => {
+                let dimensions = self.own_section(section);
+                self.property(section, &dimensions, property)
+            }
+            (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
+            (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),
+            (Formula::EndData(end, column), item) => self.own_number(item, OwnNumber::EndData(*end, *column)),
+            (Formula::OwnVolume, Item::Rib(rib)) => self.own_volume(rib, law_of(problem, rib, Total::Own)),
+            (Formula::EndProperty(end, property), Item::Rib(rib)) => {
+                let section = end_section(problem, rib, *end);
+                let dimensions = self.own_section(section);
+                self.property(section, &dimensions, property)
+            }
+            // The reader resolves own names only inside their scope; anything else has no value.
+            _ => self.graph.constant(f64::NAN),
+        }
+    }
+
+    fn fold(&mut self, fold: Fold, nodes: &[NodeId]) -> NodeId {
+        let op = match fold {
+            Fold::Sum => return self.graph.sum(nodes),
+            Fold::Min => Binary::Min,
+            Fold::Max => Binary::Max,
+        };
+        let first = nodes.first().copied().unwrap_or_else(|| self.graph.constant(f64::NAN));
+        nodes.iter().skip(1).fold(first, |folded, &node| self.graph.binary(op, folded, node))
+    }
+
+    fn given<'b>(&self, section: u32, dimensions: &'b [NodeId], outline: &'b [[f64; 2]]) -> Given<'b> {
+        Given { form: sections::form(self.problem.sections.form[section as usize]), dimensions, outline }
+    }
+
+    fn property(&mut self, section: u32, dimensions: &[NodeId], Property(name): &Property) -> NodeId {
+        let outline = self.problem.outline(section);
+        let given = self.given(section, dimensions, outline);
+        let kind = sections::kind_of(self.problem.sections.form[section as usize]);
+        // The reader only lets through names the kind offers.
+        kind.property(&mut self.graph, &given, name).unwrap_or_else(|| self.graph.constant(f64::NAN))
+    }
+
+    /// Areas of a section's parts.
+    fn parts(&mut self, section: u32, dimensions: &[NodeId]) -> Vec<NodeId> {
+        let outline = self.problem.outline(section);
+        let given = self.given(section, dimensions, outline);
+        sections::kind_of(self.problem.sections.form[section as usize]).parts(&mut self.graph, &given)
+    }
+
+    /// The volume of the rib that is the item.
+    pub fn own_volume(&mut self, rib: u32, law: Law) -> NodeId {
+        let left = self.own_section(self.problem.ribs.from[rib as usize]);
+        let right = self.own_section(self.problem.ribs.to[rib as usize]);
+        let length = self.own_number(Item::Rib(rib), OwnNumber::Length);
+        self.volume_between(rib, law, &left, &right, length)
+    }
+
+    /// The volume of a rib named globally.
+    fn rib_volume(&mut self, rib: u32, law: Law) -> NodeId {
+        let left = self.named_section(self.problem.ribs.from[rib as usize]);
+        let right = self.named_section(self.problem.ribs.to[rib as usize]);
+        let length = self.graph.constant(self.problem.ribs.length[rib as usize]);
+        self.volume_between(rib, law, &left, &right, length)
+    }
+
+    fn volume_between(&mut self, rib: u32, law: Law, left: &[NodeId], right: &[NodeId], length: NodeId) -> NodeId {
+        let (from, to) = (self.problem.ribs.from[rib as usize], self.problem.ribs.to[rib as usize]);
+        let left_parts = self.parts(from, left);
+        let per_length = if from == to {
+            self.graph.sum(&left_parts)
+        } else {
+            let right_parts = self.parts(to, right);
+            match law {
+                Law::Frustum => self.frusta(&left_parts, &right_parts),
+                Law::Prismatoid => {
+                    let mean = self.mean_dimensions(from, to, left, right);
+                    let middle = self.parts(from, &mean);
+                    let [left, middle, right] = [&left_parts, &middle, &right_parts].map(|parts| self.graph.sum(parts));
+                    law::prismatoid(&mut self.graph, left, middle, right)
+                }
+            }
+        };
+        self.graph.multiply(length, per_length)
+    }
+
+    fn frusta(&mut self, left: &[NodeId], right: &[NodeId]) -> NodeId {
+        let frusta: Vec<NodeId> =
+            left.iter().zip(right).map(|(&left, &right)| law::frustum(&mut self.graph, left, right)).collect();
+        self.graph.sum(&frusta)
+    }
+
+    /// Mean dimensions in the left section's form; the right one's are asked for by the same names.
+    fn mean_dimensions(&mut self, from: u32, to: u32, left: &[NodeId], right: &[NodeId]) -> Vec<NodeId> {
+        let names = sections::form(self.problem.sections.form[from as usize]).dimensions;
+        let same_form = self.problem.sections.form[from as usize] == self.problem.sections.form[to as usize];
+        (0..left.len())
+            .map(|at| {
+                let right = if same_form { right[at] } else { self.property(to, right, &Property(names[at].into())) };
+                let sum = self.graph.add(left[at], right);
+                self.graph.scale(0.5, sum)
+            })
+            .collect()
+    }
+}
+
+/// The section at one end of a rib.
+pub(super) fn end_section(problem: &Problem, rib: u32, end: End) -> u32 {
+    match end {
+        End::From => problem.ribs.from[rib as usize],
+        End::To => problem.ribs.to[rib as usize],
+    }
+}

@@ -1,0 +1,202 @@
+//! From a checked problem to a model: every sum falls into small elements, every element shares its kernel with its like.
+
+mod facts;
+mod groups;
+mod lower;
+mod plan;
+mod sum;
+mod template;
+mod walk;
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::assembled::{Affine, RibModel, RowOrigin};
+use super::{Meta, Pattern};
+use crate::expression::tape::TapeError;
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Sense};
+use facts::Facts;
+use groups::{Groups, Kernels};
+use lower::{Context, Item};
+use sum::{Summation, Templates};
+use walk::Walk;
+
+/// Assembles objective and rows with their derivatives and sparsity patterns.
+///
+/// ```
+/// use ribopt::model::{assemble, Model};
+/// use ribopt::problem::Problem;
+///
+/// let empty = assemble(&Problem::default().into())?;
+/// assert_eq!((empty.meta().variables(), empty.meta().rows()), (0, 0));
+/// # Ok::<(), ribopt::model::AssemblyError>(())
+/// ```
+///
+/// # Errors
+/// Where one term couples so many variables that its second derivatives do not fit.
+pub fn assemble(problem: &Arc<Problem>) -> Result<RibModel, AssemblyError> {
+    let (facts, mut kernels) = (Facts::of(problem), Kernels::default());
+    let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
+    let rows = Rows::of(problem, &facts, &mut kernels)?;
+    Ok(connect(problem, objective, objective_groups.into_list(), rows))
+}
+
+fn objective(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
+    let sign = match problem.sense {
+        Sense::Minimize => 1.0,
+        Sense::Maximize => -1.0,
+    };
+    let (mut groups, mut templates) = (Groups::default(), Templates::default());
+    let mut summation = Summation {
+        problem,
+        kernels,
+        templates: &mut templates,
+        groups: &mut groups,
+        affine: Affine::default(),
+        row: None,
+        elements: 0,
+    };
+    let walked = Walk::new(problem, facts).visit(&problem.objective, sign, Context::GLOBAL, &mut summation);
+    walked.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;
+    let mut affine = summation.affine;
+    affine.merge();
+    Ok((affine, groups))
+}
+
+/// Why no model could be assembled.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{place}: {cause}")]
+pub struct AssemblyError {
+    /// The declaration: `problem.toml:12 (constraint sag)`.
+    pub place: String,
+    /// What is too large.
+    pub cause: TapeError,
+}
+
+/// All rows while they are collected.
+#[derive(Default)]
+struct Rows {
+    affine: Vec<Affine>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    nonlinear: Vec<bool>,
+    origin: Vec<RowOrigin>,
+    groups: Groups,
+}
+
+impl Rows {
+    fn of(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<Rows, AssemblyError> {
+        let mut rows = Rows::default();
+        for (index, constraint) in problem.constraints.iter().enumerate() {
+            let (mut walk, mut templates) = (Walk::new(problem, facts), Templates::default());
+            for item in 0..constraint.scope.rows() {
+                let origin = RowOrigin { constraint: index as u32, item: item as u32 };
+                rows.add(constraint, origin, &mut walk, kernels, &mut templates).map_err(|cause| AssemblyError {
+                    place: format!("{} (constraint {})", constraint.place, constraint.name),
+                    cause,
+                })?;
+            }
+        }
+        Ok(rows)
+    }
+
+    fn add(
+        &mut self,
+        constraint: &Constraint,
+        origin: RowOrigin,
+        walk: &mut Walk,
+        kernels: &mut Kernels,
+        templates: &mut Templates,
+    ) -> Result<(), TapeError> {
+        let context = context(&constraint.scope, origin.item as usize);
+        let row = Some(self.affine.len() as u32);
+        let (problem, groups) = (walk.problem, &mut self.groups);
+        let mut summation = Summation { problem, kernels, templates, groups, affine: Affine::default(), row, elements: 0 };
+        walk.visit(&constraint.left, 1.0, context, &mut summation)?;
+        let Summation { mut affine, elements, .. } = summation;
+        affine.merge();
+        self.affine.push(affine);
+        self.nonlinear.push(elements > 0);
+        let (lower, upper) = limits(&constraint.right, |formula| walk.constant(formula, context));
+        self.lower.push(lower);
+        self.upper.push(upper);
+        self.origin.push(origin);
+        Ok(())
+    }
+}
+
+/// c_l and c_u of a row.
+fn limits(limit: &Limit, mut constant: impl FnMut(&Formula) -> f64) -> (f64, f64) {
+    match limit {
+        Limit::AtMost(value) => (f64::NEG_INFINITY, constant(value)),
+        Limit::AtLeast(value) => (constant(value), f64::INFINITY),
+        Limit::Equal(value) => {
+            let value = constant(value);
+            (value, value)
+        }
+        Limit::Between(lower, upper) => (constant(lower), constant(upper)),
+    }
+}
+
+/// Whose names the item-th row of a scope speaks of.
+fn context(scope: &Scope, item: usize) -> Context<'_> {
+    match scope {
+        Scope::Once => Context::GLOBAL,
+        Scope::Sections(items) => Context { item: Item::Section(items[item]), group: &[] },
+        Scope::Ribs(items) => Context { item: Item::Rib(items[item]), group: &[] },
+        // Plain data are the same throughout the group (the reader saw to that): the first member's serve.
+        Scope::RibGroups(groups) => {
+            Context { item: groups[item].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), group: &groups[item].1 }
+        }
+        Scope::SectionGroups(groups) => {
+            Context { item: groups[item].1.first().map_or(Item::None, |&section| Item::Section(section)), group: &groups[item].1 }
+        }
+    }
+}
+
+/// Fixes the patterns and tells every element where its derivatives go.
+fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
+    let (n, m) = (problem.variables.lower.len(), rows.affine.len());
+    let mut row_groups = rows.groups.into_list();
+    let mut positions: Vec<(u32, u32)> = Vec::new();
+    for (row, affine) in rows.affine.iter().enumerate() {
+        positions.extend(affine.coefficients.iter().map(|&(j, _)| (row as u32, j)));
+    }
+    row_groups.iter().for_each(|group| group.jacobian_positions(&mut positions));
+    let jacobian = Pattern::from_positions(m, &mut positions);
+    objective_groups.iter().chain(&row_groups).for_each(|group| group.hessian_positions(&mut positions));
+    let hessian = Pattern::from_positions(n, &mut positions);
+    for group in objective_groups.iter_mut().chain(&mut row_groups) {
+        group.connect(&jacobian, &hessian);
+    }
+    let mut linear_jacobian = vec![0.0; jacobian.len()];
+    for (row, affine) in rows.affine.iter().enumerate() {
+        for &(j, coefficient) in &affine.coefficients {
+            if let Some(at) = jacobian.position(row, j) {
+                linear_jacobian[at] = coefficient;
+            }
+        }
+    }
+    let meta = Meta {
+        lower: problem.variables.lower.clone(),
+        upper: problem.variables.upper.clone(),
+        start: problem.variables.start.clone(),
+        row_lower: rows.lower,
+        row_upper: rows.upper,
+        row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),
+        objective_is_linear: objective_groups.is_empty(),
+        jacobian,
+        hessian,
+    };
+    RibModel {
+        problem: Arc::clone(problem),
+        meta,
+        objective,
+        row_constants: rows.affine.iter().map(|affine| affine.constant).collect(),
+        linear_jacobian,
+        objective_groups,
+        row_groups,
+        row_origin: rows.origin,
+    }
+}

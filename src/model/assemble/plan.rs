@@ -1,0 +1,173 @@
+//! What a formula takes from its item, so that items of one shape can share one compiled template.
+
+use std::collections::HashSet;
+
+use super::lower::{Item, OwnNumber, end_section};
+use crate::problem::formula::{End, Formula};
+use crate::problem::{Dimension, Problem};
+
+/// The names a formula uses, in a fixed order.
+#[derive(Debug, Default)]
+pub(super) struct Plan {
+    /// Uses the item's own section (section scope).
+    own: bool,
+    from: bool,
+    to: bool,
+    numbers: Vec<OwnNumber>,
+    /// Variables it names globally.
+    globals: Vec<u32>,
+    /// False where a name reaches beyond the item: each item is then compiled by itself.
+    shareable: bool,
+    /// Definitions already read: they may share one another many times over.
+    read: HashSet<u32>,
+}
+
+/// An item whose formula names more global variables than this is compiled by itself.
+const MANY_GLOBALS: usize = 64;
+
+impl Plan {
+    /// Reads a formula (seeing through definitions).
+    pub fn of(problem: &Problem, formula: &Formula) -> Plan {
+        let mut plan = Plan { shareable: true, ..Plan::default() };
+        plan.visit(problem, formula);
+        plan.shareable &= plan.globals.len() <= MANY_GLOBALS;
+        plan
+    }
+
+    /// The plan of a rib's volume.
+    pub fn volume() -> Plan {
+        Plan { from: true, to: true, numbers: vec![OwnNumber::Length], shareable: true, ..Plan::default() }
+    }
+
+    fn visit(&mut self, problem: &Problem, formula: &Formula) {
+        match formula {
+            Formula::Constant(_) => {}
+            Formula::Variable(variable) => self.global(*variable),
+            Formula::Definition(definition) => {
+                if self.read.insert(*definition) {
+                    self.visit(problem, &problem.definitions[*definition as usize].1);
+                }
+            }
+            Formula::Unary(_, inner) => self.visit(problem, inner),
+            Formula::Binary(_, left, right) => {
+                self.visit(problem, left);
+                self.visit(problem, right);
+            }
+            Formula::Fold(_, list) => list.iter().for_each(|one| self.visit(problem, one)),
+            Formula::SectionProperty(section, _) => {
+                for &dimension in problem.dimensions(*section as usize) {
+                    match dimension {
+                        Dimension::Variable(variable) => self.global(variable),
+                        Dimension::Formula(formula) => self.visit(problem, &problem.dimension_formulas[formula as usize]),
+                        Dimension::Constant(_) => {}
+                    }
+                }
+            }
+            Formula::OwnProperty(_) => self.own = true,
+            Formula::EndProperty(End::From, _) => self.from = true,
+            Formula::EndProperty(End::To, _) => self.to = true,
+            Formula::OwnLength => self.number(OwnNumber::Length),
+            Formula::OwnData(column) => self.number(OwnNumber::Data(*column)),
+            Formula::EndData(end, column) => self.number(OwnNumber::EndData(*end, *column)),
+            Formula::OwnVolume => {
+                (self.from, self.to) = (true, true);
+                self.number(OwnNumber::Length);
+            }
+            Formula::RibVolume(_) | Formula::Volume(_) | Formula::Over { .. } => self.shareable = false,
+        }
+    }
+
+    fn global(&mut self, variable: u32) {
+        self.globals.push(variable);
+    }
+
+    fn number(&mut self, number: OwnNumber) {
+        if !self.numbers.contains(&number) {
+            self.numbers.push(number);
+        }
+    }
+
+    /// Sections of the item in the order their slots are given out.
+    fn sections(&self, problem: &Problem, item: Item) -> [Option<u32>; 2] {
+        match item {
+            Item::Section(section) if self.own => [Some(section), None],
+            Item::Rib(rib) => {
+                let (from, to) = (end_section(problem, rib, End::From), end_section(problem, rib, End::To));
+                let from = self.from.then_some(from);
+                [from, (self.to && from != Some(to)).then_some(to)]
+            }
+            _ => [None, None],
+        }
+    }
+
+    /// Gives out the slots in the order [`Gathered`] fills them.
+    pub fn reserve(&self, lowering: &mut super::lower::Lowering, item: Item) {
+        for section in self.sections(lowering.problem, item).into_iter().flatten() {
+            lowering.own_section(section);
+        }
+        for &number in &self.numbers {
+            lowering.own_number(item, number);
+        }
+        for &variable in &self.globals {
+            lowering.variable(variable);
+        }
+    }
+}
+
+/// One item's variables and numbers by slot, and the shape that decides whether two items may share a template.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    pub variables: Vec<u32>,
+    pub numbers: Vec<f64>,
+    pub shape: Vec<u32>,
+}
+
+impl Gathered {
+    /// Reads an item; false where it cannot share a template.
+    pub fn read(&mut self, plan: &Plan, problem: &Problem, item: Item) -> bool {
+        self.variables.clear();
+        self.numbers.clear();
+        self.shape.clear();
+        if !plan.shareable || item == Item::None {
+            return false;
+        }
+        if let Item::Rib(rib) = item {
+            let (from, to) = (end_section(problem, rib, End::From), end_section(problem, rib, End::To));
+            self.shape.extend([problem.ribs.law[rib as usize] as u32, u32::from(from == to)]);
+        }
+        for section in plan.sections(problem, item).into_iter().flatten() {
+            self.shape.push(problem.sections.form[section as usize].into());
+            for &dimension in problem.dimensions(section as usize) {
+                match dimension {
+                    Dimension::Constant(value) => {
+                        self.numbers.push(value);
+                        self.shape.push(u32::MAX);
+                    }
+                    Dimension::Variable(variable) => self.variable(variable),
+                    Dimension::Formula(_) => return false,
+                }
+            }
+            if !problem.outline(section).is_empty() {
+                // Shapes drawn by points are compiled into the template.
+                return false;
+            }
+        }
+        self.numbers.extend(plan.numbers.iter().map(|number| number.of(problem, item)));
+        for &variable in &plan.globals {
+            self.variable(variable);
+        }
+        true
+    }
+
+    /// Takes a variable; its slot is part of the shape, so that variables shared between dimensions are seen.
+    fn variable(&mut self, variable: u32) {
+        let slot = match self.variables.iter().position(|&known| known == variable) {
+            Some(slot) => slot,
+            None => {
+                self.variables.push(variable);
+                self.variables.len() - 1
+            }
+        };
+        self.shape.push(slot as u32);
+    }
+}

@@ -1,0 +1,171 @@
+//! Takes formulas apart: sums over items fall into pieces, one item's formula at a time.
+
+use std::collections::HashMap;
+
+use super::facts::Facts;
+use super::lower::{Context, Item, Lowering, OwnNumber, item_of, law_of, members};
+use super::plan::{Gathered, Plan};
+use crate::expression::graph::NodeId;
+use crate::expression::operators::{Binary, Fold, Unary};
+use crate::expression::tape::TapeError;
+use crate::problem::Problem;
+use crate::problem::formula::{Formula, Total};
+use crate::ribs::law::Law;
+
+/// What a piece stands for; pieces of the same work and shape are alike but for their variables and numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Work {
+    /// A formula, known by its address: formulas stay where they are while the problem is borrowed.
+    Formula(usize),
+    Volume(Law),
+}
+
+/// `weight · formula` of one item.
+pub(super) struct Piece<'p> {
+    /// What it stands for; `None` where it shares nothing with others.
+    pub work: Option<Work>,
+    /// The item's variables, numbers and shape, where it may share.
+    pub gathered: &'p Gathered,
+    pub weight: f64,
+    /// The rib whose volume it is.
+    pub rib: Option<u32>,
+    plan: &'p Plan,
+    item: Item,
+    lower: &'p dyn Fn(&mut Lowering) -> NodeId,
+}
+
+impl Piece<'_> {
+    /// The piece as a graph over local slots, which are given out in the order of `gathered`.
+    pub fn lower(&self, lowering: &mut Lowering) -> NodeId {
+        if self.work.is_some() {
+            self.plan.reserve(lowering, self.item);
+        }
+        (self.lower)(lowering)
+    }
+}
+
+/// What is done with the pieces.
+pub(super) trait Sink {
+    /// Takes a rib's volume in closed form; false where there is none, and its piece comes instead.
+    fn volume(&mut self, rib: u32, law: Law, weight: f64) -> bool {
+        let _ = (rib, law, weight);
+        false
+    }
+
+    /// Takes a piece.
+    fn piece(&mut self, piece: &Piece) -> Result<(), TapeError>;
+}
+
+/// Walks formulas of one problem.
+pub(super) struct Walk<'a> {
+    pub problem: &'a Problem,
+    facts: &'a Facts,
+    plans: HashMap<Work, Plan>,
+    gathered: Gathered,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(problem: &'a Problem, facts: &'a Facts) -> Self {
+        Walk { problem, facts, plans: HashMap::new(), gathered: Gathered::default() }
+    }
+
+    /// Hands the pieces of `weight · formula` to the sink.
+    pub fn visit(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+        if !self.facts.reaches_items(formula) {
+            let (work, problem) = (Work::Formula(std::ptr::from_ref(formula) as usize), self.problem);
+            self.plans.entry(work).or_insert_with(|| Plan::of(problem, formula));
+            return self.piece(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
+        }
+        match formula {
+            Formula::Definition(definition) => {
+                let problem = self.problem;
+                self.visit(&problem.definitions[*definition as usize].1, weight, Context::GLOBAL, sink)
+            }
+            Formula::Unary(Unary::Negate, inner) => self.visit(inner, -weight, context, sink),
+            Formula::Binary(Binary::Add, left, right) => {
+                self.visit(left, weight, context, sink)?;
+                self.visit(right, weight, context, sink)
+            }
+            Formula::Binary(Binary::Subtract, left, right) => {
+                self.visit(left, weight, context, sink)?;
+                self.visit(right, -weight, context, sink)
+            }
+            Formula::Binary(Binary::Multiply, factor, other) | Formula::Binary(Binary::Multiply, other, factor)
+                if self.facts.is_constant(factor) =>
+            {
+                let factor = self.constant(factor, context);
+                self.visit(other, weight * factor, context, sink)
+            }
+            Formula::Binary(Binary::Divide, other, divisor) if self.facts.is_constant(divisor) => {
+                let divisor = self.constant(divisor, context);
+                self.visit(other, weight / divisor, context, sink)
+            }
+            Formula::Fold(Fold::Sum, list) => list.iter().try_for_each(|one| self.visit(one, weight, context, sink)),
+            Formula::Over { fold: Fold::Sum, collection, members: which, body } => {
+                let mut items = members(self.problem, *collection, which, context).into_iter();
+                items.try_for_each(|index| self.visit(body, weight, context.of(item_of(*collection, index)), sink))
+            }
+            Formula::Volume(total) => {
+                let mut ribs = 0..self.problem.ribs.names.len() as u32;
+                ribs.try_for_each(|rib| self.volume(rib, *total, weight, sink))
+            }
+            Formula::RibVolume(rib) => self.volume(*rib, Total::Own, weight, sink),
+            Formula::OwnVolume => match context.item {
+                Item::Rib(rib) => self.volume(rib, Total::Own, weight, sink),
+                _ => Ok(()),
+            },
+            whole => {
+                let (plan, gathered) = (Plan::default(), Gathered::default());
+                let lower = |lowering: &mut Lowering| lowering.formula(whole, context);
+                sink.piece(&Piece {
+                    work: None,
+                    gathered: &gathered,
+                    weight,
+                    rib: None,
+                    plan: &plan,
+                    item: context.item,
+                    lower: &lower,
+                })
+            }
+        }
+    }
+
+    /// The value of a formula without variables.
+    pub fn constant(&self, formula: &Formula, context: Context) -> f64 {
+        match formula {
+            Formula::Constant(value) => *value,
+            Formula::OwnData(column) => OwnNumber::Data(*column).of(self.problem, context.item),
+            _ => {
+                let mut lowering = Lowering::new(self.problem);
+                let root = lowering.formula(formula, context);
+                lowering.graph.evaluate(root, &[], &lowering.numbers)
+            }
+        }
+    }
+
+    fn volume(&mut self, rib: u32, total: Total, weight: f64, sink: &mut dyn Sink) -> Result<(), TapeError> {
+        let law = law_of(self.problem, rib, total);
+        if sink.volume(rib, law, weight) {
+            return Ok(());
+        }
+        let work = Work::Volume(law);
+        self.plans.entry(work).or_insert_with(Plan::volume);
+        self.piece(work, weight, Item::Rib(rib), Some(rib), sink, &|lowering| lowering.own_volume(rib, law))
+    }
+
+    /// Hands over a piece whose plan is known.
+    fn piece(
+        &mut self,
+        work: Work,
+        weight: f64,
+        item: Item,
+        rib: Option<u32>,
+        sink: &mut dyn Sink,
+        lower: &dyn Fn(&mut Lowering) -> NodeId,
+    ) -> Result<(), TapeError> {
+        let plan = &self.plans[&work];
+        let shares = self.gathered.read(plan, self.problem, item);
+        let work = shares.then_some(work);
+        sink.piece(&Piece { work, gathered: &self.gathered, weight, rib, plan, item, lower })
+    }
+}

@@ -1,0 +1,169 @@
+//! The model assembled from a problem: affine parts and sums of elements.
+
+use std::sync::Arc;
+
+use super::elements::{Group, Label};
+use super::{EvaluationError, Meta, Model};
+use crate::problem::Problem;
+
+/// An affine function: constant and coefficients, one per variable at the most.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Affine {
+    pub constant: f64,
+    pub coefficients: Vec<(u32, f64)>,
+}
+
+impl Affine {
+    fn value(&self, x: &[f64]) -> f64 {
+        self.constant + self.coefficients.iter().map(|&(j, c)| c * x[j as usize]).sum::<f64>()
+    }
+
+    /// Adds up the coefficients of each variable, in ascending order of variables.
+    pub fn merge(&mut self) {
+        self.coefficients.sort_by_key(|&(j, _)| j);
+        self.coefficients.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 += next.1;
+            }
+            same
+        });
+        self.coefficients.shrink_to_fit();
+    }
+}
+
+/// Objective and rows of a [`Problem`] with exact sparse derivatives.
+///
+/// A maximisation is turned: the model always minimises, [`crate::problem::Sense`] tells what reports show.
+pub struct RibModel {
+    pub(super) problem: Arc<Problem>,
+    pub(super) meta: Meta,
+    /// The objective's affine part.
+    pub(super) objective: Affine,
+    /// The rows' constants.
+    pub(super) row_constants: Vec<f64>,
+    /// The rows' affine parts: values along the Jacobian's pattern, zero elsewhere.
+    pub(super) linear_jacobian: Vec<f64>,
+    /// Elements of the objective, by kernel.
+    pub(super) objective_groups: Vec<Group>,
+    /// Elements of the rows, by kernel.
+    pub(super) row_groups: Vec<Group>,
+    /// Which declaration and which item each row comes from.
+    pub(super) row_origin: Vec<RowOrigin>,
+}
+
+/// Where a row comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RowOrigin {
+    /// Index into [`Problem::constraints`].
+    pub constraint: u32,
+    /// Which of its items, counted as its scope lists them.
+    pub item: u32,
+}
+
+impl RibModel {
+    /// The declaration it was assembled from.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// Where row i comes from.
+    pub fn row_origin(&self, i: usize) -> RowOrigin {
+        self.row_origin[i]
+    }
+
+    /// Number of elements (objective, rows) and of kernels they share.
+    pub fn elements(&self) -> (usize, usize, usize) {
+        let count = |groups: &[Group]| groups.iter().map(Group::len).sum();
+        (count(&self.objective_groups), count(&self.row_groups), self.objective_groups.len() + self.row_groups.len())
+    }
+
+    fn invalid(&self, groups: &[Group], x: &[f64], fallback: &str) -> EvaluationError {
+        if let Some(j) = x.iter().position(|value| !value.is_finite()) {
+            return EvaluationError::Invalid { term: self.variable_name(j), cause: format!("the variable itself is {}", x[j]) };
+        }
+        let (term, cause) = match groups.iter().find_map(|group| group.explain(x)) {
+            Some((label, cause)) => (self.describe(label), cause),
+            None => (fallback.to_string(), "the sum of its terms overflows".to_string()),
+        };
+        EvaluationError::Invalid { term, cause }
+    }
+
+    fn describe(&self, label: Label) -> String {
+        match label {
+            Label::Objective => format!("objective {}", self.problem.objective_text),
+            Label::RibVolume(rib) => format!("volume of rib {}", self.problem.ribs.names[rib as usize]),
+            Label::Row(row) => format!("row {}", self.row_name(row as usize)),
+        }
+    }
+}
+
+fn all_finite(values: &[f64]) -> bool {
+    values.iter().all(|value| value.is_finite())
+}
+
+impl Model for RibModel {
+    fn meta(&self) -> &Meta {
+        &self.meta
+    }
+
+    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+        let value = self.objective.value(x) + self.objective_groups.iter().map(|group| group.value(x)).sum::<f64>();
+        if value.is_finite() { Ok(value) } else { Err(self.invalid(&self.objective_groups, x, "objective")) }
+    }
+
+    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        gradient.fill(0.0);
+        for &(j, coefficient) in &self.objective.coefficients {
+            gradient[j as usize] = coefficient;
+        }
+        let value =
+            self.objective.value(x) + self.objective_groups.iter().map(|group| group.add_gradient(x, gradient)).sum::<f64>();
+        let finite = value.is_finite() && all_finite(gradient);
+        if finite { Ok(value) } else { Err(self.invalid(&self.objective_groups, x, "gradient of the objective")) }
+    }
+
+    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.meta.jacobian.multiply(&self.linear_jacobian, x, values);
+        for (value, constant) in values.iter_mut().zip(&self.row_constants) {
+            *value += constant;
+        }
+        for group in &self.row_groups {
+            group.add_rows(x, values);
+        }
+        if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "rows")) }
+    }
+
+    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        values.copy_from_slice(&self.linear_jacobian);
+        for group in &self.row_groups {
+            group.add_jacobian(x, values);
+        }
+        if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "first derivatives of the rows")) }
+    }
+
+    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        values.fill(0.0);
+        for group in self.objective_groups.iter().chain(&self.row_groups) {
+            group.add_hessian(x, weight, y, values);
+        }
+        if all_finite(values) {
+            return Ok(());
+        }
+        let groups = if self.objective_groups.iter().any(|group| group.explain(x).is_some()) {
+            &self.objective_groups
+        } else {
+            &self.row_groups
+        };
+        Err(self.invalid(groups, x, "second derivatives"))
+    }
+
+    fn variable_name(&self, j: usize) -> String {
+        self.problem.variable_name(j)
+    }
+
+    fn row_name(&self, i: usize) -> String {
+        let RowOrigin { constraint, item } = self.row_origin[i];
+        self.problem.row_name(constraint as usize, item as usize)
+    }
+}

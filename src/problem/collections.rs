@@ -1,0 +1,54 @@
+//! Sections and ribs looked at alike.
+
+use super::{Cells, Column, Problem};
+use crate::expression::ast::Collection;
+use crate::sections::{self, Form};
+
+impl Problem {
+    /// How many sections or ribs there are.
+    pub fn count(&self, collection: Collection) -> u32 {
+        self.item_names(collection).len() as u32
+    }
+
+    /// The name of a section or rib.
+    pub fn item_name(&self, collection: Collection, index: u32) -> &str {
+        self.item_names(collection).get(index as usize).map_or("", |name| name)
+    }
+
+    /// Data columns of sections or ribs.
+    pub fn columns(&self, collection: Collection) -> &[Column] {
+        match collection {
+            Collection::Sections => &self.sections.data,
+            Collection::Ribs => &self.ribs.data,
+        }
+    }
+
+    /// The text in a cell; `None` where it is empty or a number.
+    pub fn label(&self, collection: Collection, column: u32, index: u32) -> Option<&str> {
+        match &self.columns(collection).get(column as usize)?.cells {
+            Cells::Labels { labels, of } => labels.get(*of.get(index as usize)? as usize).map(|label| &**label),
+            Cells::Numbers(_) => None,
+        }
+    }
+
+    /// The number of the form of a section, or of the section at a rib's left end.
+    pub fn kind_of(&self, collection: Collection, index: u32) -> Option<u16> {
+        let section = match collection {
+            Collection::Sections => index,
+            Collection::Ribs => *self.ribs.from.get(index as usize)?,
+        };
+        self.sections.form.get(section as usize).copied()
+    }
+
+    fn item_names(&self, collection: Collection) -> &[Box<str>] {
+        match collection {
+            Collection::Sections => &self.sections.names,
+            Collection::Ribs => &self.ribs.names,
+        }
+    }
+}
+
+/// The form in which the dimensions of section `s` are given.
+pub fn sections_form(problem: &Problem, s: usize) -> Option<&'static Form> {
+    problem.sections.form.get(s).map(|&number| sections::form(number))
+}

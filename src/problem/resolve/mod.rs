@@ -1,0 +1,257 @@
+//! Looks up every name of an expression: [`Ast`] → [`Formula`], constants folded, arrays element by element.
+
+mod condition;
+mod name;
+mod over;
+mod scope;
+
+use super::evaluate::{Evaluation, Item};
+use super::names::Names;
+use super::{Formula, Problem};
+use crate::expression::Span;
+use crate::expression::ast::{Ast, AstKind, Collection};
+use crate::expression::operators::{Binary, Fold, Unary};
+
+pub use condition::Filter;
+pub use scope::ItemScope;
+
+/// One number's formula, or an array of them.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs)]
+pub enum Value {
+    Scalar(Formula),
+    Array(Vec<Formula>),
+}
+
+/// Something to be said about a part of an expression.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// The part.
+    pub span: Span,
+    /// What is wrong with it.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+}
+
+/// What came to light besides the formula.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// Mistakes; where there is one, there is no formula.
+    pub mistakes: Vec<Remark>,
+    /// Item names that hide a global one, and choices made at the start.
+    pub warnings: Vec<Remark>,
+    /// Data columns that occur.
+    pub used: Vec<(Collection, u32)>,
+}
+
+/// Which names may occur.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Parameters only.
+    Constants,
+    /// Everything declared.
+    All,
+}
+
+/// What names can refer to.
+#[derive(Clone, Copy)]
+pub struct World<'a> {
+    /// Sections and ribs with their data; variables; definitions and dimensions as far as they are resolved.
+    pub problem: &'a Problem,
+    /// Who is who.
+    pub names: &'a Names,
+    /// Values of parameters; `None` where a mistake was reported.
+    pub parameters: &'a [Option<Value>],
+    /// For each entry of `[variables]`: its first scalar variable, and its size if it is an array.
+    pub variables: &'a [(u32, Option<u32>)],
+    /// Values of definitions; `None` where a mistake was reported.
+    pub definitions: &'a [Option<Value>],
+    /// Which of these may occur.
+    pub stage: Stage,
+}
+
+/// Resolves expressions in one scope.
+pub struct Resolver<'a, 'r> {
+    world: World<'a>,
+    /// The items whose own names hold.
+    scope: Option<&'r ItemScope>,
+    /// The collection whose groups make the rows.
+    group: Option<Collection>,
+    report: &'r mut Report,
+}
+
+impl<'a, 'r> Resolver<'a, 'r> {
+    /// A resolver; without a scope only global names hold.
+    pub fn new(world: World<'a>, scope: Option<&'r ItemScope>, report: &'r mut Report) -> Self {
+        let group = scope.filter(|scope| scope.grouped).map(|scope| scope.collection);
+        Resolver { world, scope, group, report }
+    }
+
+    /// The formula of a number; `None` after a mistake.
+    pub fn scalar(&mut self, ast: &Ast) -> Option<Formula> {
+        match self.value(ast)? {
+            Value::Scalar(formula) => Some(formula),
+            Value::Array(list) => {
+                let message = format!("this is an array of {}, where one number is needed", list.len());
+                self.mistake(ast.span, message, Some("index it, as in x[1], or join it: sum(…), min(…), max(…)".into()))
+            }
+        }
+    }
+
+    /// The formula or the formulas; `None` after a mistake.
+    pub fn value(&mut self, ast: &Ast) -> Option<Value> {
+        match &ast.kind {
+            AstKind::Number(number) => Some(Value::Scalar(Formula::Constant(*number))),
+            AstKind::Text(_) => self.mistake(ast.span, "text is no number", Some("compare it in a `where`".into())),
+            AstKind::Name(parts) => self.name(parts, ast.span),
+            AstKind::Index(base, index) => self.index(base, index, ast.span),
+            AstKind::Unary(op, operand) => {
+                let value = self.value(operand)?;
+                self.each(value, |formula| unary(*op, formula), ast.span)
+            }
+            AstKind::Binary(op, left, right) => {
+                // Both sides are looked at, so that mistakes on either are found.
+                let (left, right) = (self.value(left), self.value(right));
+                self.binary(*op, left?, right?, ast.span)
+            }
+            AstKind::Fold(fold, arguments) => {
+                let values: Vec<Option<Value>> = arguments.iter().map(|argument| self.value(argument)).collect();
+                let values: Option<Vec<Value>> = values.into_iter().collect();
+                let list: Vec<Formula> = values?.into_iter().flat_map(Value::into_list).collect();
+                self.known(join(*fold, list), ast.span).map(Value::Scalar)
+            }
+            AstKind::Over { fold, collection, filter, body } => {
+                self.over(*fold, *collection, filter.as_deref(), body, ast.span).map(Value::Scalar)
+            }
+            AstKind::Call(name, arguments) => self.call(name, arguments, ast.span),
+        }
+    }
+
+    /// A call of something that is no function.
+    fn call(&mut self, name: &str, arguments: &[Ast], span: Span) -> Option<Value> {
+        arguments.iter().for_each(|argument| drop(self.value(argument)));
+        let span = Span { start: span.start, end: span.start + name.len() };
+        let functions = Unary::NAMED.iter().map(|(name, _)| *name).chain(["atan2", "min", "max", "sum"]);
+        if self.world.names.find(self.world.problem, name).is_some() {
+            let help = format!("write `{name}*(…)` for a product, `{name}[…]` for an element");
+            return self.mistake(span, format!("`{name}` is no function"), Some(help));
+        }
+        let help = super::nearest::did_you_mean(name, functions.clone());
+        let known = || format!("known: {}", functions.collect::<Vec<_>>().join(", "));
+        self.mistake(span, format!("unknown function `{name}`"), Some(help.unwrap_or_else(known)))
+    }
+
+    /// `x[3]`
+    fn index(&mut self, base: &Ast, index: &Ast, span: Span) -> Option<Value> {
+        let (base_value, position) = (self.value(base), self.scalar(index));
+        let Value::Array(mut list) = base_value? else {
+            return self.mistake(base.span, "this is one number, not an array", Some("leave the index out".into()));
+        };
+        let Formula::Constant(position) = position? else {
+            let help = "an index is a number or an expression in parameters";
+            return self.mistake(index.span, "this index is not constant", Some(help.into()));
+        };
+        let size = list.len();
+        if position.fract() != 0.0 || position < 1.0 || position > size as f64 {
+            let message = format!("there is no element {position}");
+            return self.mistake(span, message, Some(format!("elements are counted from 1 to {size}")));
+        }
+        Some(Value::Scalar(list.swap_remove(position as usize - 1)))
+    }
+
+    fn binary(&mut self, op: Binary, left: Value, right: Value, span: Span) -> Option<Value> {
+        use Value::{Array, Scalar};
+        match (left, right) {
+            (Scalar(left), Scalar(right)) => self.known(binary(op, left, right), span).map(Scalar),
+            (left, Scalar(right)) => self.each(left, |left| binary(op, left, right.clone()), span),
+            (Scalar(left), right) => self.each(right, |right| binary(op, left.clone(), right), span),
+            (Array(left), Array(right)) if left.len() == right.len() => {
+                let pairs = left.into_iter().zip(right);
+                pairs.map(|(left, right)| self.known(binary(op, left, right), span)).collect::<Option<_>>().map(Array)
+            }
+            (Array(left), Array(right)) => {
+                let message = format!("arrays of {} and {} elements do not go together", left.len(), right.len());
+                self.mistake(span, message, Some("both need the same size; single numbers are repeated".into()))
+            }
+        }
+    }
+
+    /// Element by element.
+    fn each(&mut self, value: Value, apply: impl Fn(Formula) -> Formula, span: Span) -> Option<Value> {
+        match value {
+            Value::Scalar(formula) => self.known(apply(formula), span).map(Value::Scalar),
+            Value::Array(list) => {
+                let list = list.into_iter().map(|formula| self.known(apply(formula), span));
+                list.collect::<Option<_>>().map(Value::Array)
+            }
+        }
+    }
+
+    /// The formula, unless it is a constant that is no number.
+    fn known(&mut self, formula: Formula, span: Span) -> Option<Formula> {
+        match formula {
+            Formula::Constant(value) if value.is_nan() => {
+                self.mistake(span, "this has no value", Some("it leaves the domain, as 0/0 or log(-1) do".into()))
+            }
+            formula => Some(formula),
+        }
+    }
+
+    fn mistake<T>(&mut self, span: Span, message: impl Into<String>, help: Option<String>) -> Option<T> {
+        self.report.mistakes.push(Remark { span, message: message.into(), help });
+        None
+    }
+
+    fn warning(&mut self, span: Span, message: String, help: &str) {
+        if self.report.warnings.iter().all(|remark| remark.message != message) {
+            self.report.warnings.push(Remark { span, message, help: Some(help.into()) });
+        }
+    }
+
+    /// A global formula as a constant where it depends on no variable.
+    fn folded(&self, formula: Formula) -> Formula {
+        match Evaluation::constants(self.world.problem).value(&formula, Item::None) {
+            Some(value) if !value.is_nan() => Formula::Constant(value),
+            _ => formula,
+        }
+    }
+}
+
+impl Value {
+    fn into_list(self) -> Vec<Formula> {
+        match self {
+            Value::Scalar(formula) => vec![formula],
+            Value::Array(list) => list,
+        }
+    }
+}
+
+fn unary(op: Unary, operand: Formula) -> Formula {
+    match operand {
+        Formula::Constant(value) => Formula::Constant(op.evaluate(value)),
+        operand => Formula::Unary(op, Box::new(operand)),
+    }
+}
+
+fn binary(op: Binary, left: Formula, right: Formula) -> Formula {
+    match (left, right) {
+        (Formula::Constant(left), Formula::Constant(right)) => Formula::Constant(op.evaluate(left, right)),
+        (left, right) => Formula::Binary(op, Box::new(left), Box::new(right)),
+    }
+}
+
+/// The list joined; a number where all are numbers.
+fn join(fold: Fold, mut list: Vec<Formula>) -> Formula {
+    let number = |formula: &Formula| if let Formula::Constant(value) = formula { Some(*value) } else { None };
+    if list.len() == 1 {
+        return list.swap_remove(0);
+    }
+    let Some(numbers) = list.iter().map(number).collect::<Option<Vec<f64>>>() else { return Formula::Fold(fold, list) };
+    let op = match fold {
+        Fold::Sum => Binary::Add,
+        Fold::Min => Binary::Min,
+        Fold::Max => Binary::Max,
+    };
+    Formula::Constant(numbers.into_iter().reduce(|left, right| op.evaluate(left, right)).unwrap_or(f64::NAN))
+}

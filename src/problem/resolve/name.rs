@@ -1,0 +1,250 @@
+//! Names: the item's own first, then the global ones.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use super::{Resolver, Stage, Value};
+use crate::expression::Span;
+use crate::expression::ast::Collection;
+use crate::problem::evaluate::number;
+use crate::problem::formula::{End, Total};
+use crate::problem::names::Entity;
+use crate::problem::nearest::did_you_mean;
+use crate::problem::{Cells, Column, Dimension, Formula, Property};
+use crate::sections;
+
+impl<'a> Resolver<'a, '_> {
+    /// The value of a dotted name.
+    pub(super) fn name(&mut self, parts: &[String], span: Span) -> Option<Value> {
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        if self.scope.is_some()
+            && let Some(formula) = self.own(&parts, span)
+        {
+            return formula.map(Value::Scalar);
+        }
+        match parts[..] {
+            [name] => self.global(name, span),
+            [item, name] => self.member(item, name, span).map(Value::Scalar),
+            [rib, end, name] => self.rib_end(rib, end, name, span).map(Value::Scalar),
+            _ => self.mistake(span, "too many dots", Some("as in support.Ix, haunch.length, haunch.from.b".into())),
+        }
+    }
+
+    /// A name of the item itself; `Some(None)` after a mistake, `None` where it has no such name.
+    fn own(&mut self, parts: &[&str], span: Span) -> Option<Option<Formula>> {
+        let scope = self.scope?;
+        let found = match (scope.collection, parts) {
+            (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
+            (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),
+            (Collection::Ribs, ["volume"]) => Some(Formula::OwnVolume),
+            (Collection::Sections, [name]) if scope.offers(name) => Some(Formula::OwnProperty(property(name))),
+            _ => None,
+        };
+        let found = match (found, parts) {
+            (Some(found), _) => found,
+            (None, [name]) => match self.own_data(scope.collection, name, span)? {
+                Some(data) => data,
+                None => return Some(None),
+            },
+            (None, _) => return None,
+        };
+        if let [name] = parts
+            && let Some(entity) = self.world.names.find(self.world.problem, name)
+        {
+            let message = format!("`{name}` is the item's own here and hides the {} of this name", entity.word());
+            self.warning(span, message, "rename one of the two");
+        }
+        Some(Some(found))
+    }
+
+    /// The item's data column of this name.
+    fn own_data(&mut self, collection: Collection, name: &str, span: Span) -> Option<Option<Formula>> {
+        let columns = self.columns(collection);
+        let at = columns.iter().position(|column| column.name == name)?;
+        self.report.used.push((collection, at as u32));
+        if let Cells::Labels { labels, .. } = &columns[at].cells {
+            let sample = labels.first().map_or("", |label| label);
+            let message = format!("data `{name}` are text, such as \"{sample}\"");
+            return Some(self.mistake(span, message, Some("only data of numbers can be reckoned with".into())));
+        }
+        Some(Some(Formula::OwnData(at as u32)))
+    }
+
+    /// `from.Ix`, `to.c`: property or data of the section at an end of the item.
+    fn end(&mut self, end: &str, name: &str, span: Span) -> Option<Formula> {
+        let (scope, end) = (self.scope?, if end == "from" { End::From } else { End::To });
+        if scope.offers(name) {
+            return Some(Formula::EndProperty(end, property(name)));
+        }
+        match self.own_data(Collection::Sections, name, span) {
+            Some(Some(Formula::OwnData(column))) => Some(Formula::EndData(end, column)),
+            Some(_) => None,
+            None => self.no_property(name, scope.lacking(name), scope.properties().collect(), span),
+        }
+    }
+
+    /// A global name.
+    fn global(&mut self, name: &str, span: Span) -> Option<Value> {
+        match self.world.names.find(self.world.problem, name) {
+            Some(Entity::Parameter(p)) => self.world.parameters.get(p as usize).cloned().flatten(),
+            Some(entity) if self.world.stage == Stage::Constants => {
+                let message = format!("`{name}` is a {}, but this must be constant", entity.word());
+                self.mistake(span, message, Some("numbers and parameters may occur here".into()))
+            }
+            Some(Entity::Variable(v)) => Some(self.variable(v)),
+            Some(Entity::Definition(d)) => self.world.definitions.get(d as usize).cloned().flatten(),
+            Some(entity) => {
+                let message = format!("`{name}` is a {}, not a number", entity.word());
+                let what = if matches!(entity, Entity::Section(_)) { "Ix" } else { "length" };
+                self.mistake(span, message, Some(format!("say which property: `{name}.{what}`")))
+            }
+            None => match total(name) {
+                _ if name == "pi" => Some(Value::Scalar(Formula::Constant(PI))),
+                Some(total) if self.world.stage == Stage::All => self.volume(total, span).map(Value::Scalar),
+                _ => self.unknown(name, span),
+            },
+        }
+    }
+
+    fn volume(&mut self, total: Total, span: Span) -> Option<Formula> {
+        if self.world.problem.ribs.names.is_empty() {
+            return self.mistake(span, "there are no ribs to have a volume", Some("add [[ribs]]".into()));
+        }
+        Some(Formula::Volume(total))
+    }
+
+    fn variable(&self, entry: u32) -> Value {
+        match self.world.variables.get(entry as usize) {
+            Some((first, Some(size))) => Value::Array((*first..first + size).map(Formula::Variable).collect()),
+            Some((first, None)) => Value::Scalar(Formula::Variable(*first)),
+            None => Value::Scalar(Formula::Constant(0.0)),
+        }
+    }
+
+    fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
+        let own: Vec<&str> = match self.scope {
+            Some(scope) if scope.collection == Collection::Sections => scope.properties().collect(),
+            Some(_) => vec!["length", "volume", "from", "to"],
+            None => Vec::new(),
+        };
+        let columns = self.scope.map_or(&[][..], |scope| self.columns(scope.collection));
+        let global = self.world.names.suggestions(self.world.problem);
+        let fixed = ["pi", "volume", "volume_frustum", "volume_prismatoid"];
+        let known = own.into_iter().chain(columns.iter().map(|column| &*column.name)).chain(global).chain(fixed);
+        let help = did_you_mean(name, known);
+        if let Some(kind) = self.scope.and_then(|scope| scope.lacking(name)) {
+            let message = format!("`{name}` is not a name every section here has: kind `{kind}` has none");
+            return self.mistake(span, message, Some("choose the kind: kind = \"…\"".into()));
+        }
+        let message = format!("unknown name `{name}`");
+        let declare = "declare it among parameters, variables or definitions";
+        self.mistake(span, message, Some(help.unwrap_or_else(|| declare.into())))
+    }
+
+    /// `support.Ix`, `support.c`, `haunch.length`, `haunch.c`.
+    fn member(&mut self, item: &str, name: &str, span: Span) -> Option<Formula> {
+        if self.world.stage == Stage::Constants {
+            let help = "numbers and parameters may occur here";
+            return self.mistake(span, format!("`{item}.{name}` is not constant"), Some(help.into()));
+        }
+        match self.world.names.find(self.world.problem, item) {
+            Some(Entity::Section(s)) => self.section(s, name, span),
+            Some(Entity::Rib(r)) => self.rib(r, name, span),
+            Some(entity) => {
+                let message = format!("`{item}` is a {} and has no `{name}`", entity.word());
+                self.mistake(span, message, Some("only sections and ribs have names of their own".into()))
+            }
+            None if matches!(item, "from" | "to") => {
+                let help = "these are the ends of a rib: use it with for = \"ribs\" or in sum(ribs: …)";
+                self.mistake(span, format!("`{item}.{name}` outside a rib"), Some(help.into()))
+            }
+            None => self.unknown(item, Span { start: span.start, end: span.start + item.len() }),
+        }
+    }
+
+    fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
+        let problem = self.world.problem;
+        let number = *problem.sections.form.get(s as usize)?;
+        if let Some(at) = sections::form(number).dimensions.iter().position(|given| *given == name) {
+            match problem.dimensions(s as usize).get(at) {
+                Some(Dimension::Variable(j)) => return Some(Formula::Variable(*j)),
+                Some(Dimension::Constant(value)) => return Some(Formula::Constant(*value)),
+                _ => {}
+            }
+        }
+        let kind = sections::kind_of(number);
+        if kind.properties().contains(&name) {
+            return Some(self.folded(Formula::SectionProperty(s, property(name))));
+        }
+        match self.cell(Collection::Sections, s, name, span) {
+            Some(value) => value,
+            None => self.no_property(name, Some(kind.name()), kind.properties().to_vec(), span),
+        }
+    }
+
+    fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
+        match name {
+            "length" => self.world.problem.ribs.length.get(r as usize).map(|&length| Formula::Constant(length)),
+            "volume" => Some(Formula::RibVolume(r)),
+            _ => match self.cell(Collection::Ribs, r, name, span) {
+                Some(value) => value,
+                None => {
+                    let help = "a rib offers length, volume, from.…, to.… and its data";
+                    self.mistake(span, format!("a rib has no `{name}`"), Some(help.into()))
+                }
+            },
+        }
+    }
+
+    /// `haunch.from.b`
+    fn rib_end(&mut self, rib: &str, end: &str, name: &str, span: Span) -> Option<Formula> {
+        let found = self.world.names.find(self.world.problem, rib);
+        let ribs = &self.world.problem.ribs;
+        let section = match (found, end) {
+            (Some(Entity::Rib(r)), "from") => ribs.from.get(r as usize),
+            (Some(Entity::Rib(r)), "to") => ribs.to.get(r as usize),
+            (None, _) => return self.unknown(rib, Span { start: span.start, end: span.start + rib.len() }),
+            _ => return self.mistake(span, format!("`{rib}.{end}` has no `{name}`"), Some("as in haunch.from.b".into())),
+        };
+        self.section(*section?, name, span)
+    }
+
+    /// The number in a data cell of one item; `None` where there is no such column.
+    fn cell(&mut self, collection: Collection, item: u32, name: &str, span: Span) -> Option<Option<Formula>> {
+        let columns = self.columns(collection);
+        let at = columns.iter().position(|column| column.name == name)?;
+        self.report.used.push((collection, at as u32));
+        Some(match number(&columns[at], item) {
+            Some(value) => Some(Formula::Constant(value)),
+            None => self.mistake(span, format!("this item's data `{name}` is no number"), Some("give it one".into())),
+        })
+    }
+
+    fn no_property<T>(&mut self, name: &str, kind: Option<&str>, known: Vec<&'static str>, span: Span) -> Option<T> {
+        let help = did_you_mean(name, known.iter().copied());
+        let of = kind.map_or("the sections here have".to_owned(), |kind| format!("a section of kind {kind} has"));
+        self.mistake(
+            span,
+            format!("{of} no `{name}`"),
+            Some(help.unwrap_or_else(|| format!("known: {} and its data", known.join(", ")))),
+        )
+    }
+
+    /// Data columns of a collection.
+    pub(super) fn columns(&self, collection: Collection) -> &'a [Column] {
+        self.world.problem.columns(collection)
+    }
+}
+
+fn property(name: &str) -> Property {
+    Property(Arc::from(name))
+}
+
+fn total(name: &str) -> Option<Total> {
+    match name {
+        "volume" => Some(Total::Own),
+        "volume_frustum" => Some(Total::Frustum),
+        "volume_prismatoid" => Some(Total::Prismatoid),
+        _ => None,
+    }
+}

@@ -1,0 +1,78 @@
+//! `sum(ribs where …: …)`: folds over ribs and sections.
+
+use std::sync::Arc;
+
+use super::condition::Filter;
+use super::{ItemScope, Resolver, Stage};
+use crate::expression::Span;
+use crate::expression::ast::{Ast, Collection, Condition};
+use crate::expression::operators::Fold;
+use crate::problem::formula::{Formula, Members};
+
+impl Resolver<'_, '_> {
+    /// The fold; over the row's own group where the rows are groups of this collection.
+    pub(super) fn over(
+        &mut self,
+        fold: Fold,
+        collection: Collection,
+        filter: Option<&Condition>,
+        body: &Ast,
+        span: Span,
+    ) -> Option<Formula> {
+        if self.world.stage == Stage::Constants {
+            return self.mistake(span, "this must be constant", Some("numbers and parameters may occur here".into()));
+        }
+        let mut scope = ItemScope::all(self.world.problem, collection);
+        if scope.members.is_empty() {
+            let word = word(collection);
+            return self.mistake(span, format!("there are no {word}"), Some(format!("add [[{word}]] or leave this out")));
+        }
+        let listed = match filter {
+            Some(condition) => Some(self.chosen(condition, &scope, span)?),
+            None => None,
+        };
+        if let Some(list) = &listed {
+            if list.is_empty() {
+                return self.nothing(fold, span);
+            }
+            scope = ItemScope::of(self.world.problem, collection, list.to_vec());
+        }
+        let body = Resolver { scope: Some(&scope), ..self.reborrowed() }.scalar(body)?;
+        let members = match (self.group == Some(collection), listed) {
+            (true, listed) => Members::Group(listed),
+            (false, Some(list)) => Members::Listed(list),
+            (false, None) => Members::All,
+        };
+        Some(self.folded(Formula::Over { fold, collection, members, body: Arc::new(body) }))
+    }
+
+    /// The members a `where` chooses.
+    fn chosen(&mut self, condition: &Condition, scope: &ItemScope, span: Span) -> Option<Arc<Vec<u32>>> {
+        let filter = Resolver { scope: Some(scope), ..self.reborrowed() }.condition(condition)?;
+        match filter.choose(self.world.problem, scope) {
+            Ok(list) => Some(Arc::new(list)),
+            Err(message) => self.mistake(span, message, Some(Filter::REMEDY.into())),
+        }
+    }
+
+    fn nothing(&mut self, fold: Fold, span: Span) -> Option<Formula> {
+        if fold != Fold::Sum {
+            return self.mistake(span, "no item is chosen, so there is none to take", Some("widen the `where`".into()));
+        }
+        self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+        Some(Formula::Constant(0.0))
+    }
+
+    /// The same resolver for a while.
+    fn reborrowed(&mut self) -> Resolver<'_, '_> {
+        Resolver { world: self.world, scope: self.scope, group: self.group, report: self.report }
+    }
+}
+
+/// The collection's word in files.
+pub(super) fn word(collection: Collection) -> &'static str {
+    match collection {
+        Collection::Ribs => "ribs",
+        Collection::Sections => "sections",
+    }
+}

@@ -1,0 +1,60 @@
+//! The items whose own names hold in an expression.
+
+use std::collections::BTreeSet;
+
+use crate::expression::ast::Collection;
+use crate::problem::Problem;
+use crate::sections;
+
+/// Sections or ribs, and the kinds of section met among them.
+#[derive(Debug, Clone)]
+pub struct ItemScope {
+    /// Sections or ribs.
+    pub collection: Collection,
+    /// Their numbers, ascending.
+    pub members: Vec<u32>,
+    /// Forms of the sections (of ribs: at their ends), ascending.
+    forms: BTreeSet<u16>,
+    /// True where the rows are groups of items.
+    pub grouped: bool,
+}
+
+impl ItemScope {
+    /// The scope of these items.
+    pub fn of(problem: &Problem, collection: Collection, members: Vec<u32>) -> ItemScope {
+        let form = |s: u32| problem.sections.form.get(s as usize).copied();
+        let forms = match collection {
+            Collection::Sections => members.iter().filter_map(|&s| form(s)).collect(),
+            Collection::Ribs => {
+                let ends = members.iter().flat_map(|&r| [&problem.ribs.from, &problem.ribs.to].map(|end| end.get(r as usize)));
+                ends.flatten().filter_map(|&s| form(s)).collect()
+            }
+        };
+        ItemScope { collection, members, forms, grouped: false }
+    }
+
+    /// The scope of every item.
+    pub fn all(problem: &Problem, collection: Collection) -> ItemScope {
+        ItemScope::of(problem, collection, (0..problem.count(collection)).collect())
+    }
+
+    /// True where every section concerned offers this property.
+    pub fn offers(&self, property: &str) -> bool {
+        !self.forms.is_empty() && self.kinds().all(|kind| kind.properties().contains(&property))
+    }
+
+    /// The name of a kind that does not offer a property some other kind here does.
+    pub fn lacking(&self, property: &str) -> Option<&'static str> {
+        let some = self.kinds().any(|kind| kind.properties().contains(&property));
+        self.kinds().find(|kind| some && !kind.properties().contains(&property)).map(|kind| kind.name())
+    }
+
+    /// Names of properties of the first kind, for suggestions.
+    pub fn properties(&self) -> impl Iterator<Item = &'static str> {
+        self.kinds().next().into_iter().flat_map(|kind| kind.properties().iter().copied())
+    }
+
+    fn kinds(&self) -> impl Iterator<Item = &'static dyn sections::Kind> {
+        self.forms.iter().map(|&form| sections::kind_of(form))
+    }
+}

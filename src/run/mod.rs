@@ -1,0 +1,69 @@
+//! One run, start to finish: read, assemble, solve, certify, compare, leave the files.
+
+pub mod bounds;
+pub mod check;
+pub mod choice;
+pub mod compare;
+pub mod folder;
+pub mod solve;
+pub mod subject;
+pub mod verify;
+
+use thiserror::Error;
+
+pub use choice::Choice;
+pub use subject::Subject;
+
+use crate::backends::Iteration;
+use crate::report::answer::AnswerError;
+use crate::report::result::Mistake;
+use folder::FolderError;
+
+/// Sees a run as it goes on.
+pub trait Watcher {
+    /// A backend begins.
+    fn begin(&mut self, backend: &str, algorithm: &str);
+
+    /// An iteration; the objective is in the user's sense.
+    fn iteration(&mut self, iteration: &Iteration<'_>);
+
+    /// No more iterations will come.
+    fn end(&mut self);
+}
+
+/// Watches nothing.
+impl Watcher for () {
+    fn begin(&mut self, _: &str, _: &str) {}
+    fn iteration(&mut self, _: &Iteration<'_>) {}
+    fn end(&mut self) {}
+}
+
+/// Why a run could not begin, or could not leave its files.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The problem file or a `--set` is wrong.
+    #[error("{0}")]
+    Input(String, Vec<Mistake>),
+    /// The output folder.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The answer to start from or to verify.
+    #[error(transparent)]
+    Answer(#[from] AnswerError),
+    /// No such backend or algorithm, or none that takes the problem.
+    #[error("{0}")]
+    Choice(String),
+}
+
+impl RunError {
+    /// What is wrong, one by one.
+    pub fn mistakes(&self) -> Vec<Mistake> {
+        match self {
+            RunError::Input(_, mistakes) => mistakes.clone(),
+            other => vec![Mistake::of_command(other.to_string())],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

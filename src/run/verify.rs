@@ -1,0 +1,31 @@
+//! `verify`: what a point found elsewhere is.
+
+use std::path::Path;
+
+use super::{RunError, Subject};
+use crate::certificate::{Tolerances, certify};
+use crate::crosscheck::{Outcome, Status};
+use crate::report::answer::EarlierAnswer;
+
+/// Certifies the point of an answer file. The outcome has no solutions.
+///
+/// # Errors
+/// Where the answer cannot be read or is not a point of this problem.
+pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
+    let x = EarlierAnswer::read(answer)?.point(subject.model())?;
+    let settings = &subject.settings;
+    let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
+    let outcome = match certify(subject.model(), subject.class, &x, None, tolerances) {
+        Err(error) => Outcome { status: Status::InvalidValue, message: error.to_string(), x, ..Outcome::default() },
+        Ok(certificate) => Outcome {
+            status: if certificate.certified { Status::Certified } else { Status::Uncertified },
+            scope: certificate.scope,
+            message: if certificate.certified { "the point is a certified minimum" } else { "the point does not pass" }.into(),
+            objective: Some(certificate.objective),
+            certificate: Some(certificate),
+            x,
+            ..Outcome::default()
+        },
+    };
+    Ok(outcome)
+}
