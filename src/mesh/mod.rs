@@ -7,6 +7,7 @@
 
 pub mod boundary;
 pub mod closest;
+pub mod commands;
 pub mod defects;
 pub mod edge_list;
 pub mod features;
