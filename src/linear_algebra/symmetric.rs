@@ -4,6 +4,8 @@ use feral::numeric::solver::FactorStatus;
 use feral::{CscMatrix, RefineOptions, Solver};
 use thiserror::Error;
 
+use super::dense::{self, DenseSolver};
+
 /// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inertia {
@@ -13,6 +15,12 @@ pub struct Inertia {
     pub negative: usize,
     /// n₀
     pub zero: usize,
+}
+
+impl Inertia {
+    pub(super) fn of(inertia: &feral::Inertia) -> Self {
+        Inertia { positive: inertia.positive, negative: inertia.negative, zero: inertia.zero }
+    }
 }
 
 /// Why there is no factorisation or no solution.
@@ -47,7 +55,14 @@ pub struct SymmetricSolver {
     matrix: CscMatrix,
     /// Where each position of the caller's pattern stands there.
     places: Vec<usize>,
-    solver: Solver,
+    method: Method,
+}
+
+/// Which of the library's factorisations is used.
+enum Method {
+    Sparse(Box<Solver>),
+    /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
+    Dense(DenseSolver),
 }
 
 impl SymmetricSolver {
@@ -75,7 +90,8 @@ impl SymmetricSolver {
             }
         }
         let matrix = CscMatrix { n, col_ptr: starts, row_idx: rows, values: vec![0.0; columns.len()] };
-        Ok(SymmetricSolver { matrix, places, solver: Solver::new() })
+        let method = if n <= dense::LARGEST_ORDER { Method::Dense(DenseSolver::new(n)) } else { Method::Sparse(Box::default()) };
+        Ok(SymmetricSolver { matrix, places, method })
     }
 
     /// The order n of the matrix.
@@ -95,10 +111,9 @@ impl SymmetricSolver {
         for (&place, &value) in self.places.iter().zip(values) {
             self.matrix.values[place] = value;
         }
-        match self.solver.factor(&self.matrix, None) {
-            FactorStatus::Success | FactorStatus::WrongInertia { .. } => self.inertia().ok_or(FactorizationError::Singular),
-            FactorStatus::Singular => Err(FactorizationError::Singular),
-            FactorStatus::FatalError(error) => Err(FactorizationError::Library(error.to_string())),
+        match &mut self.method {
+            Method::Dense(solver) => solver.factor(&self.matrix),
+            Method::Sparse(solver) => factor_sparse(solver, &self.matrix),
         }
     }
 
@@ -107,14 +122,22 @@ impl SymmetricSolver {
         if self.order() == 0 {
             return Ok(());
         }
-        self.solver
-            .solve_refined_into(&self.matrix, right, x, RefineOptions::default())
-            .map_err(|error| FactorizationError::Library(error.to_string()))
+        match &self.method {
+            Method::Dense(solver) => solver.solve(right, x),
+            Method::Sparse(solver) => solver
+                .solve_refined_into(&self.matrix, right, x, RefineOptions::default())
+                .map_err(|error| FactorizationError::Library(error.to_string())),
+        }
     }
+}
 
-    fn inertia(&self) -> Option<Inertia> {
-        let inertia = self.solver.inertia()?;
-        Some(Inertia { positive: inertia.positive, negative: inertia.negative, zero: inertia.zero })
+fn factor_sparse(solver: &mut Solver, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
+    match solver.factor(matrix, None) {
+        FactorStatus::Success | FactorStatus::WrongInertia { .. } => {
+            solver.inertia().map(Inertia::of).ok_or(FactorizationError::Singular)
+        }
+        FactorStatus::Singular => Err(FactorizationError::Singular),
+        FactorStatus::FatalError(error) => Err(FactorizationError::Library(error.to_string())),
     }
 }
 
@@ -174,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn new_values_reuse_the_analysis() {
+    fn new_values_replace_the_old_ones() {
         let mut solver = SymmetricSolver::new(&[0, 1, 3], &[0, 0, 1]).unwrap();
         for scale in [1.0, -2.0, 1e-9] {
             solver.factor(&[2.0 * scale, scale, 3.0 * scale]).unwrap();
@@ -182,7 +205,31 @@ mod tests {
             solver.solve(&[3.0 * scale, 4.0 * scale], &mut x).unwrap();
             assert!((x[0] - 1.0).abs() < 1e-14 && (x[1] - 1.0).abs() < 1e-14, "{x:?}");
         }
-        assert_eq!(solver.solver.symbolic_call_count(), 1);
+    }
+
+    #[test]
+    fn larger_matrices_are_analysed_once() {
+        let n = dense::LARGEST_ORDER + 5;
+        // An arrow: diagonal and last row.
+        let mut offsets: Vec<usize> = (0..n).collect();
+        offsets.push(2 * n - 1);
+        let columns: Vec<u32> = (0..n as u32 - 1).chain(0..n as u32).collect();
+        let mut solver = SymmetricSolver::new(&offsets, &columns).unwrap();
+        for scale in [1.0, -3.0, 1e-7] {
+            let values: Vec<f64> = (0..2 * n - 1).map(|at| scale * if at < n - 1 { 2.0 } else { 1.0 }).collect();
+            let inertia = solver.factor(&values).unwrap();
+            let (more, fewer) = (n - 1, 1);
+            let expected = if scale > 0.0 { (more, fewer) } else { (fewer, more) };
+            assert_eq!((inertia.positive, inertia.negative), expected);
+            let right: Vec<f64> = (0..n).map(|i| scale * if i < n - 1 { 3.0 } else { n as f64 }).collect();
+            let mut x = vec![0.0; n];
+            solver.solve(&right, &mut x).unwrap();
+            assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-13), "{x:?}");
+        }
+        match &solver.method {
+            Method::Sparse(sparse) => assert_eq!(sparse.symbolic_call_count(), 1),
+            Method::Dense(_) => panic!("order {n} is not for the dense method"),
+        }
     }
 
     #[test]

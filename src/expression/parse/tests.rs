@@ -154,6 +154,8 @@ fn deep_nesting_is_refused_and_long_chains_are_not() {
     assert_eq!(value(&sum), -1.0);
     let product = "3".to_string() + &"*2/2".repeat(50_000);
     assert_eq!(value(&product), 3.0);
+    let deepest = "(".repeat(127) + "1" + &(format!("{}{})", "*1".repeat(7), "+0".repeat(7))).repeat(127);
+    assert_eq!(value(&deepest), 1.0, "walked and dropped on the stack of a thread");
     let condition = "a == 1".to_string() + &" or b == 2 and not c == 3".repeat(50_000);
     assert!(parse_condition(&condition).is_ok());
     assert!(parse(&("(".repeat(100) + "1" + &")".repeat(100))).is_ok());

@@ -1,5 +1,7 @@
 //! Curvature by the rules of disciplined convex programming (M. Grant, S. Boyd, Y. Ye, 2006).
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use super::{Interval, Structure};
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::operators::{Binary, Unary};
@@ -122,10 +124,11 @@ impl Shape {
 }
 
 /// The curvature of a node whose operands are known.
-pub(super) fn curvature(graph: &Graph, node: Node, known: &[Structure]) -> Curvature {
+pub(super) fn curvature(graph: &Graph, node: Node, interval: Interval, known: &[Structure]) -> Curvature {
     let of = |id: NodeId| known[id as usize];
     match node {
         Node::Constant(_) | Node::Data(_) => Constant,
+        Node::Input(_) if interval.as_point().is_some() => Constant, // fixed by its bounds
         Node::Input(_) => Affine,
         Node::Unary(op, a) => unary_shape(op, of(a).interval).compose(of(a).curvature),
         Node::Binary(op, a, b) => binary(graph, op, (a, of(a)), (b, of(b)), known),
@@ -183,9 +186,11 @@ fn unary_shape(op: Unary, range: Interval) -> Shape {
         Unary::Sinh | Unary::Asin => Shape::by_sign(range, rising(Concave), rising(Convex)),
         Unary::Tanh | Unary::Atan => Shape::by_sign(range, rising(Convex), rising(Concave)),
         Unary::Acos => Shape::by_sign(range, falling(Convex), falling(Concave)),
-        Unary::Tan if range.lower > -1.57 && range.upper < 1.57 => Shape::by_sign(range, rising(Concave), rising(Convex)),
-        Unary::Sin if range.lower >= 0.0 && range.upper <= 3.141 => Shape::of(Concave, Slope::Mixed),
-        Unary::Cos if range.lower >= -1.57 && range.upper <= 1.57 => Shape::of(Concave, Slope::Mixed),
+        Unary::Tan if range.lower > -FRAC_PI_2 && range.upper < FRAC_PI_2 => {
+            Shape::by_sign(range, rising(Concave), rising(Convex))
+        }
+        Unary::Sin if range.lower >= 0.0 && range.upper <= PI => Shape::of(Concave, Slope::Mixed),
+        Unary::Cos if range.lower >= -FRAC_PI_2 && range.upper <= FRAC_PI_2 => Shape::of(Concave, Slope::Mixed),
         // It falls as far as 1.4616… and rises from there.
         Unary::LnGamma if range.lower >= 1.47 => rising(Convex),
         Unary::LnGamma => Shape::of(Convex, Slope::Mixed),

@@ -1,6 +1,12 @@
 //! Interval arithmetic with outward rounding: the result holds every value the operation takes where it is defined.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use crate::expression::operators::{Binary, Unary};
+
+/// Just above π and π/2, as the nearest numbers lie below.
+const HALF_TURN: f64 = PI.next_up();
+const QUARTER_TURN: f64 = FRAC_PI_2.next_up();
 
 /// `lower ≤ value ≤ upper`; the ends may be infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,11 +158,11 @@ impl Interval {
             Unary::Log => self.clamped().increasing(f64::ln),
             Unary::Log10 => self.clamped().increasing(f64::log10),
             Unary::Sin | Unary::Cos => Interval { lower: -1.0, upper: 1.0 },
-            Unary::Tan if self.lower >= 0.0 && self.upper <= 1.57 => self.increasing(f64::tan).clamped(),
+            Unary::Tan if self.lower >= 0.0 && self.upper <= FRAC_PI_2 => self.increasing(f64::tan).clamped(),
             Unary::Tan => Interval::WHOLE,
-            Unary::Asin if self.is_non_negative() => Interval { lower: 0.0, upper: 1.571 },
-            Unary::Asin => Interval { lower: -1.571, upper: 1.571 },
-            Unary::Acos => Interval { lower: 0.0, upper: 3.142 },
+            Unary::Asin if self.is_non_negative() => Interval { lower: 0.0, upper: QUARTER_TURN },
+            Unary::Asin => Interval { lower: -QUARTER_TURN, upper: QUARTER_TURN },
+            Unary::Acos => Interval { lower: 0.0, upper: HALF_TURN },
             Unary::Atan => self.increasing(f64::atan).keep_sign(self),
             Unary::Sinh => self.increasing(f64::sinh).keep_sign(self),
             Unary::Cosh => Interval { lower: 1.0, ..self.magnitude().increasing(f64::cosh) },
@@ -183,7 +189,7 @@ impl Interval {
                 None if self.is_non_negative() => Interval::NON_NEGATIVE,
                 None => Interval::WHOLE,
             },
-            Binary::Atan2 => Interval { lower: -3.142, upper: 3.142 },
+            Binary::Atan2 => Interval { lower: -HALF_TURN, upper: HALF_TURN },
             Binary::Min => self.minimum(other),
             Binary::Max => self.negate().minimum(other.negate()).negate(),
         }

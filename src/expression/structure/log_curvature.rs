@@ -26,7 +26,7 @@ fn unary(op: Unary, argument: Structure) -> Curvature {
         Unary::Sqrt | Unary::Abs => log_log,
         // Power series with positive coefficients.
         Unary::Exp | Unary::Sinh | Unary::Cosh | Unary::Asin if log_log.is_convex() => Convex,
-        Unary::Tan if log_log.is_convex() && argument.interval.upper <= 1.57 => Convex,
+        Unary::Tan if log_log.is_convex() && argument.interval.upper <= std::f64::consts::FRAC_PI_2 => Convex,
         Unary::Log | Unary::Log10 if log_log.is_concave() && argument.interval.lower >= 1.0 => Concave,
         _ => Unknown,
     }

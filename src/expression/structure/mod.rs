@@ -47,7 +47,7 @@ pub fn analyse(graph: &Graph, inputs: &[Interval], data: &[Interval]) -> Vec<Str
         let node = graph.node(id as NodeId);
         let interval = range(node, inputs, data, &known);
         let log_curvature = log_curvature::log_curvature(node, interval, degrees.of(id as NodeId) == Degree::Constant, &known);
-        let curvature = curvature::curvature(graph, node, &known);
+        let curvature = curvature::curvature(graph, node, interval, &known);
         known.push(Structure { interval, curvature, log_curvature });
         if curvature == Curvature::Unknown && degrees.of(id as NodeId) == Degree::Quadratic && !inner[id] {
             known[id].curvature = quadratic::curvature(graph, id as NodeId, &known);

@@ -47,6 +47,17 @@ fn sums_of_squares_are_convex() {
 }
 
 #[test]
+fn an_input_fixed_by_its_bounds_is_a_constant() {
+    let mut case = Case::new();
+    let square = case.graph.power(case.b, 2.0);
+    let product = case.graph.multiply(case.a, square);
+    let ranges = |a| analyse(&case.graph, &[a, Interval::new(-1.0, 1.0)], &[])[product as usize].curvature;
+    assert_eq!(ranges(Interval::point(3.0)), Convex);
+    assert_eq!(ranges(Interval::point(-3.0)), Concave);
+    assert_eq!(ranges(Interval::new(2.0, 3.0)), Unknown);
+}
+
+#[test]
 fn quadratic_forms_are_factorised() {
     for (middle, expected) in [(1.0, Convex), (-2.0, Convex), (2.0, Convex), (2.0 + 1e-15, Unknown), (3.0, Unknown)] {
         let mut case = Case::new();
@@ -157,10 +168,10 @@ fn check_claims(tape: &Tape, structure: Structure, p: &[f64], q: &[f64]) -> Resu
     {
         claims += usize::from(tested && curvature != Unknown);
         // Not finite: the domain is not convex.
-        if tested && curvature.is_convex() && !(gap >= -slack) {
+        if tested && curvature.is_convex() && (gap.is_nan() || gap < -slack) {
             return Err(format!("not convex by {gap}"));
         }
-        if tested && curvature.is_concave() && !(gap <= slack) {
+        if tested && curvature.is_concave() && (gap.is_nan() || gap > slack) {
             return Err(format!("not concave by {gap}"));
         }
     }

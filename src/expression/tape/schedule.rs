@@ -6,8 +6,8 @@ use super::TapeError;
 use super::program::{Instruction, Operation, Program};
 use crate::expression::operators::{Binary, Unary};
 
-/// Multiply-adds a Hessian may take (12 bytes each).
-const PUSH_LIMIT: usize = 10_000_000;
+/// Multiply-adds a Hessian may take: enough for the square root of a thousand squares.
+const PUSH_LIMIT: usize = 4_000_000;
 
 /// No such edge.
 pub(super) const NONE: u32 = u32::MAX;
@@ -79,11 +79,11 @@ impl Schedule {
             for (other, source) in edges.take(step.slot) {
                 edges.push_down(step, other, source, &mut pushes);
             }
-            step.pushes = start..pushes.len();
-            edges.add_own(step);
             if pushes.len() > PUSH_LIMIT {
                 return Err(TapeError::TooDense { inputs: program.inputs() });
             }
+            step.pushes = start..pushes.len();
+            edges.add_own(step);
         }
         let weights = edges.slots.len();
         let (pattern, place) = edges.inputs_first(program.inputs() as u32);

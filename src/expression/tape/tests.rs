@@ -168,6 +168,9 @@ fn deep_and_wide_programs() {
     let sum = graph.sum(&squares);
     let (tape, _) = Tape::compile(&graph, sum).unwrap();
     assert_eq!(tape.hessian_pattern().len(), 100_000);
+    let some = graph.sum(&squares[..1000]);
+    let norm = graph.unary(Unary::Sqrt, some);
+    assert_eq!(Tape::compile(&graph, norm).unwrap().0.hessian_pattern().len(), 1000 * 1001 / 2);
     let norm = graph.unary(Unary::Sqrt, sum);
     assert_eq!(Tape::compile(&graph, norm).unwrap_err(), TapeError::TooDense { inputs: 100_000 });
 }

@@ -11,6 +11,7 @@ use super::line_search::Search;
 use super::restoration::Restoration;
 use super::start;
 use super::vectors::moved;
+use super::watchdog::Watchdog;
 use crate::model::EvaluationError;
 
 /// The optimality error at which nothing is left to gain.
@@ -84,6 +85,8 @@ pub(super) struct Engine<'a> {
     pub best: Best,
     /// Saddle points left so far.
     pub escapes: usize,
+    pub watchdog: Option<Box<Watchdog>>,
+    pub shortened_steps: usize,
     tiny_steps: usize,
     iterations: u64,
 }
@@ -100,19 +103,31 @@ pub(super) struct Best {
 pub(super) struct Beginning<'s> {
     /// The model's x.
     pub x: &'s [f64],
+    /// What the variables are scaled by: their sizes here.
+    pub magnitudes: &'s [f64],
     /// The model's row multipliers of an earlier answer.
     pub multipliers: Option<&'s [f64]>,
+    /// By how much the limits of rows are eased while iterating.
+    pub ease: f64,
     /// First barrier parameter, if not the usual one.
     pub mu: Option<f64>,
     /// Push inside the bounds, if not the usual one.
     pub push: Option<f64>,
 }
 
+impl<'s> Beginning<'s> {
+    /// A cold start.
+    pub fn at(x: &'s [f64]) -> Self {
+        Beginning { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
+    }
+}
+
 impl<'a> Engine<'a> {
     /// At the start, ready to iterate.
     pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
-        let mut form = Form::new(model, beginning.x);
+        let mut form = Form::new(model, beginning.x, beginning.magnitudes);
+        form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
         let mu = beginning.mu.unwrap_or(if warm { 1e-6 } else { FIRST_BARRIER });
         let mut iterate = start::place(&mut form, beginning.x, push)?;
@@ -146,6 +161,8 @@ impl<'a> Engine<'a> {
             step_norm: 0.0,
             errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
             escapes: 0,
+            watchdog: None,
+            shortened_steps: 0,
             tiny_steps: 0,
             iterations: 0,
             form,
@@ -171,7 +188,9 @@ impl<'a> Engine<'a> {
             Some(ending) => return Ok(Some(ending)),
             None => {}
         }
-        self.decrease_barrier();
+        if self.watchdog.is_none() {
+            self.decrease_barrier();
+        }
         match self.newton_direction() {
             Ok(true) => {}
             Ok(false) => return self.restore("the KKT matrix has no usable factors"),
@@ -195,6 +214,7 @@ impl<'a> Engine<'a> {
     /// Starts the search for the best iterate and the filter anew.
     pub fn forget(&mut self) {
         self.filter.reset(self.largest_violation);
+        self.watchdog = None;
         self.best.error = f64::INFINITY;
         self.tiny_steps = 0;
         self.assess();
@@ -262,7 +282,16 @@ impl<'a> Engine<'a> {
     fn move_along(&mut self) -> Result<Option<Ending>, EvaluationError> {
         let mut cap: f64 = 1.0;
         loop {
-            let found = self.line_search(cap)?;
+            let found = match self.watchdog.take() {
+                None => self.line_search(cap)?,
+                Some(watchdog) => match self.full_step_on_trial(watchdog)? {
+                    Some(found) => found,
+                    None => {
+                        self.assess();
+                        return Ok(None);
+                    }
+                },
+            };
             let length = match found {
                 Search::Step(length) | Search::Tiny(length) => length,
                 Search::Failed => return self.line_search_failed(),

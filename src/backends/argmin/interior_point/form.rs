@@ -48,6 +48,8 @@ pub(super) struct Form<'a> {
     pub variable_scale: Vec<f64>,
     pub row_scale: Vec<f64>,
     pub objective_scale: f64,
+    /// By how much the limits of inequality rows are eased, relative: gives an interior to rows that have none.
+    pub ease: f64,
     /// Columns below the number of free variables; slacks are not in it.
     pub jacobian: Pattern,
     pub hessian: Pattern,
@@ -62,8 +64,8 @@ pub(super) struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// The form of `model`, variables scaled by the magnitude of `start`, rows and objective not yet.
-    pub fn new(model: Source<'a>, start: &[f64]) -> Self {
+    /// The form of `model`, fixed variables at `start`, the others scaled by `magnitudes`, rows and objective not yet.
+    pub fn new(model: Source<'a>, start: &[f64], magnitudes: &[f64]) -> Self {
         let meta = model.meta();
         let free: Vec<usize> = (0..meta.variables()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
         let rows: Vec<usize> =
@@ -72,7 +74,7 @@ impl<'a> Form<'a> {
         let slack: Vec<Option<usize>> =
             rows.iter().map(|&i| (meta.row_lower[i] != meta.row_upper[i]).then(|| inequalities.next()).flatten()).collect();
         let variable_scale: Vec<f64> =
-            free.iter().map(|&j| scaling::variable_scale(start[j], meta.lower[j], meta.upper[j])).collect();
+            free.iter().map(|&j| scaling::variable_scale(magnitudes[j], meta.lower[j], meta.upper[j])).collect();
         let (jacobian, jacobian_entries) = select_jacobian(&meta.jacobian, &rows, &free, meta.variables());
         let (hessian, hessian_entries) = select_hessian(&meta.hessian, &free, meta.variables());
         let mut x = start.to_vec();
@@ -84,6 +86,7 @@ impl<'a> Form<'a> {
         let mut form = Form {
             row_scale: vec![1.0; rows.len()],
             objective_scale: 1.0,
+            ease: 0.0,
             lower: Vec::new(),
             upper: Vec::new(),
             free,
@@ -113,14 +116,21 @@ impl<'a> Form<'a> {
         self.apply_scales();
     }
 
+    /// Takes the rows' limits as they are from now on.
+    pub fn tighten(&mut self) {
+        self.ease = 0.0;
+        self.apply_scales();
+    }
+
     /// Bounds and derivative factors that follow from the scales.
     fn apply_scales(&mut self) {
         let meta = self.model.meta();
         let scaled = |limits: &[f64]| self.free.iter().zip(&self.variable_scale).map(|(&j, d)| limits[j] / d).collect();
         let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (scaled(&meta.lower), scaled(&meta.upper));
         for (i, _) in self.slack.iter().enumerate().filter(|(_, slack)| slack.is_some()) {
-            lower.push(meta.row_lower[self.rows[i]] * self.row_scale[i]);
-            upper.push(meta.row_upper[self.rows[i]] * self.row_scale[i]);
+            let limits = [&meta.row_lower, &meta.row_upper].map(|limits| limits[self.rows[i]] * self.row_scale[i]);
+            lower.push(limits[0] - eased(limits[0], self.ease));
+            upper.push(limits[1] + eased(limits[1], self.ease));
         }
         for i in 0..self.rows.len() {
             for at in self.jacobian.range(i) {
@@ -265,6 +275,11 @@ impl<'a> Form<'a> {
         }
         multipliers
     }
+}
+
+/// How far a limit is eased; an infinite one is not.
+fn eased(limit: f64, ease: f64) -> f64 {
+    if limit.is_finite() { ease * limit.abs().max(1.0) } else { 0.0 }
 }
 
 /// Which free variable each model variable is.

@@ -18,6 +18,8 @@ const DECREASE: f64 = 1.0 / 3.0;
 const INCREASE: f64 = 8.0;
 const FIRST_INCREASE: f64 = 100.0;
 const DUAL_REGULARISATION: f64 = 1e-8;
+/// Halvings (of the logarithm) towards the least δ_w.
+const BISECTIONS: usize = 8;
 
 /// Matrix, factors and the memory of earlier corrections.
 pub(super) struct Kkt {
@@ -156,6 +158,22 @@ impl Kkt {
             primal *= factor;
         }
         Ok(false)
+    }
+
+    /// Factorises with a δ_w that is hardly larger than needed for the inertia of a minimum, so that inverse iteration
+    /// finds the direction of least curvature. `false`: none was found.
+    pub fn factor_close(&mut self, blocks: Blocks<'_>) -> bool {
+        if !self.factor_corrected(blocks, 1.0).unwrap_or(false) {
+            return false;
+        }
+        let wanted = Inertia { positive: self.variables, negative: self.slack.len(), zero: 0 };
+        let (mut too_small, mut enough) = (self.correction / FIRST_INCREASE, self.correction);
+        for _ in 0..BISECTIONS {
+            let middle = (too_small * enough).sqrt();
+            let right = self.factor(blocks, middle, DUAL_REGULARISATION).is_ok_and(|inertia| inertia == wanted);
+            *(if right { &mut enough } else { &mut too_small }) = middle;
+        }
+        self.factor(blocks, enough, DUAL_REGULARISATION).is_ok()
     }
 
     /// Solves for the steps (w_step, y_step) that belong to right-hand sides.

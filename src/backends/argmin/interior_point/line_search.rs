@@ -30,7 +30,7 @@ pub(super) struct Measure {
 
 /// How a trial point was accepted.
 #[derive(Clone, Copy, PartialEq)]
-enum Verdict {
+pub(super) enum Verdict {
     Rejected,
     /// By a sufficient decrease of φ where the switching condition holds: the filter stays.
     Objective,
@@ -50,7 +50,8 @@ pub(super) enum Search {
 }
 
 /// The current point, seen from the line search.
-struct Here {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Here {
     measure: Measure,
     /// ∇φᵀ·step
     slope: f64,
@@ -68,13 +69,13 @@ impl Engine<'_> {
         self.measure(&self.iterate.w, self.iterate.objective, &self.iterate.residual)
     }
 
-    fn move_trial(&mut self, length: f64) {
+    pub(super) fn move_trial(&mut self, length: f64) {
         moved(&self.iterate.w, length, &self.direction.w, &mut self.trial.w);
         self.form.keep_inside(&mut self.trial.w);
     }
 
     /// Evaluates at `trial.w`; `None` outside the domain.
-    fn trial_measure(&mut self) -> Result<Option<Measure>, EvaluationError> {
+    pub(super) fn trial_measure(&mut self) -> Result<Option<Measure>, EvaluationError> {
         match self.form.values(&self.trial.w, &mut self.trial.rows) {
             Ok(objective) => {
                 self.trial.objective = objective;
@@ -103,6 +104,8 @@ impl Engine<'_> {
                 in_domain = true;
                 let verdict = self.judge(&here, length, measure);
                 if self.accept(&here, verdict) {
+                    self.shortened_steps = if first { 0 } else { self.shortened_steps + 1 };
+                    self.watch(here);
                     return Ok(Search::Step(length));
                 }
                 if first && measure.violation >= here.measure.violation {
@@ -136,7 +139,7 @@ impl Engine<'_> {
         (SHORTEST_FACTOR * shortest).max(SHORTEST_IN_DOMAIN)
     }
 
-    fn judge(&self, here: &Here, length: f64, trial: Measure) -> Verdict {
+    pub(super) fn judge(&self, here: &Here, length: f64, trial: Measure) -> Verdict {
         if !self.filter.accepts(trial.violation, trial.objective) {
             return Verdict::Rejected;
         }
@@ -154,7 +157,7 @@ impl Engine<'_> {
     }
 
     /// Enters the current point into the filter where the verdict asks for it.
-    fn accept(&mut self, here: &Here, verdict: Verdict) -> bool {
+    pub(super) fn accept(&mut self, here: &Here, verdict: Verdict) -> bool {
         if verdict == Verdict::Either {
             self.filter.add(here.measure.violation, here.measure.objective);
         }

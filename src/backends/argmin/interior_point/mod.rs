@@ -10,9 +10,12 @@
 //! | [`kkt`] | the Newton system and its inertia |
 //! | [`line_search`], [`filter`] | which steps are taken |
 //! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
+//! | [`watchdog`] | full steps on trial where the filter cuts too many short |
 //! | [`saddle`] | leaving stationary points that are no minima |
 //! | [`polish`] | the last digits, on the active set |
+//! | [`attempts`] | a second run in better scales, or from elsewhere |
 
+mod attempts;
 mod barrier;
 mod elastic;
 mod engine;
@@ -27,6 +30,7 @@ mod saddle;
 mod scaling;
 mod start;
 mod vectors;
+mod watchdog;
 
 use argmin::argmin_error;
 use argmin::core::{Error, KV, Problem, Solver};
@@ -34,6 +38,7 @@ use argmin::core::{Error, KV, Problem, Solver};
 use super::state::{Conclusion, NlpState, Point};
 use crate::backends::Termination;
 use crate::model::Evaluator;
+use attempts::Attempts;
 use engine::{Beginning, Ending, Engine};
 use form::Source;
 
@@ -42,12 +47,13 @@ pub(super) struct InteriorPoint<'a> {
     start: Vec<f64>,
     multipliers: Option<Vec<f64>>,
     engine: Option<Engine<'a>>,
+    attempts: Attempts,
 }
 
 impl<'a> InteriorPoint<'a> {
     /// From `start`, with row multipliers of an earlier answer if there are any.
     pub fn new(start: Vec<f64>, multipliers: Option<Vec<f64>>) -> Self {
-        InteriorPoint { start, multipliers, engine: None }
+        InteriorPoint { start, multipliers, engine: None, attempts: Attempts::default() }
     }
 }
 
@@ -62,7 +68,7 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
         state: NlpState<'s>,
     ) -> Result<(NlpState<'s>, Option<KV>), Error> {
         let model = given(problem)?;
-        let beginning = Beginning { x: &self.start, multipliers: self.multipliers.as_deref(), mu: None, push: None };
+        let beginning = Beginning { multipliers: self.multipliers.as_deref(), ..Beginning::at(&self.start) };
         match Engine::new(Source::Given(model), beginning) {
             Ok(mut engine) => {
                 let point = engine.point();
@@ -88,8 +94,19 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
                 state.at(point, engine.step_norm, model.evaluations())
             }
             Ok(Some(ending)) => {
-                let (conclusion, answer) = engine.conclude(ending);
-                state.at(engine.point(), 0.0, model.evaluations()).conclude(conclusion, answer)
+                let (conclusion, point) = engine.conclude(&ending);
+                let state = state.at(point.clone(), engine.step_norm, model.evaluations());
+                match self.attempts.next(model, &self.start, engine, (ending, conclusion, point)) {
+                    Ok(Some(next)) => {
+                        *engine = next;
+                        state
+                    }
+                    Ok(None) => match std::mem::take(&mut self.attempts).conclude() {
+                        Some((conclusion, answer)) => state.conclude(conclusion, answer),
+                        None => state,
+                    },
+                    Err(error) => state.conclude(Conclusion::of(&error), None),
+                }
             }
             Err(error) => state.conclude(Conclusion::of(&error), None),
         };
@@ -115,11 +132,12 @@ impl Engine<'_> {
         }
     }
 
-    /// The run's conclusion, and the answer where it is not the best point by rank.
-    fn conclude(&mut self, ending: Ending) -> (Conclusion, Option<Point>) {
+    /// The run's conclusion and its point.
+    fn conclude(&mut self, ending: &Ending) -> (Conclusion, Point) {
         let (termination, message, invalid) = match ending {
             Ending::Optimal | Ending::Acceptable => {
                 std::mem::swap(&mut self.iterate, &mut self.best.iterate);
+                self.form.tighten();
                 // A run told to stop keeps the point as it is.
                 let _ = self.polish();
                 (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
@@ -128,12 +146,10 @@ impl Engine<'_> {
                 let violation = self.form.violation(&self.iterate.rows);
                 (Termination::Converged, format!("the violation {violation:.3e} is a local minimum: locally infeasible"), None)
             }
-            Ending::Diverging(message) => (Termination::Converged, message, None),
-            Ending::Stuck(message) => return (Conclusion { termination: Termination::Failed, message, invalid: None }, None),
-            Ending::Invalid(term) => {
-                return (Conclusion { termination: Termination::Failed, message: term.clone(), invalid: Some(term) }, None);
-            }
+            Ending::Diverging(message) => (Termination::Converged, message.clone(), None),
+            Ending::Stuck(message) => (Termination::Failed, message.clone(), None),
+            Ending::Invalid(term) => (Termination::Failed, term.clone(), Some(term.clone())),
         };
-        (Conclusion { termination, message, invalid }, Some(self.point()))
+        (Conclusion { termination, message, invalid }, self.point())
     }
 }

@@ -5,6 +5,7 @@ use super::engine::Engine;
 use super::form::Form;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
+use super::vectors::norm_max;
 use crate::model::EvaluationError;
 
 /// Newton steps at the most.
@@ -13,6 +14,8 @@ const MOST_STEPS: usize = 10;
 const HELD: f64 = 1e30;
 /// Regularisation where active rows are dependent or the reduced Hessian is singular.
 const REGULARISATION: f64 = 1e-9;
+/// Larger multipliers look like those of dependent rows.
+const LARGE_MULTIPLIER: f64 = 1e5;
 /// A slack and its multiplier that are both below this do not tell which of them is zero.
 const AMBIGUOUS: f64 = 1e-4;
 
@@ -72,7 +75,42 @@ impl Engine<'_> {
             }
             (least, best) = (error, Some(point.clone()));
         }
+        if let Some(best) = best.as_mut().filter(|best| norm_max(&best.y) > LARGE_MULTIPLIER) {
+            self.least_norm_multipliers(sides, best, least);
+        }
         Ok(best)
+    }
+
+    /// Where active rows are dependent their multipliers are one choice of many and may drift: the smallest are taken,
+    /// if they prove as much.
+    fn least_norm_multipliers(&mut self, sides: &[Side], best: &mut Iterate, error: f64) {
+        let Self { form, kkt, hessian, sigma, right, direction, .. } = self;
+        let n = form.variables();
+        let mut point = best.clone();
+        point.y.fill(0.0);
+        point.lagrangian_gradient(form, right);
+        for j in 0..sides.len() {
+            let held = sides[j] != Side::Free;
+            right[j] = if held || j >= n { 0.0 } else { -right[j] };
+            sigma[j] = match (held, j < n) {
+                (true, true) => HELD,
+                (false, true) => 1.0,
+                (true, false) => f64::INFINITY,
+                (false, false) => 1.0 / HELD,
+            };
+        }
+        hessian.fill(0.0);
+        let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
+        let zeros = vec![0.0; form.rows.len()];
+        let sides_given = Sides { w: right, rows: &zeros };
+        if kkt.factor(blocks, 0.0, REGULARISATION).is_err() || kkt.solve(sides_given, &mut direction.w, &mut direction.y).is_err()
+        {
+            return;
+        }
+        point.y.copy_from_slice(&direction.y);
+        if settle(form, sides, &mut point, right) <= error.max(REGULARISATION) {
+            *best = point;
+        }
     }
 
     /// One Newton step of variables and multipliers. `false`: there is none.

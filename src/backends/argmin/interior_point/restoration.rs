@@ -39,6 +39,8 @@ impl<'a> Engine<'a> {
         if nothing_to_restore || self.restorations > MOST_RESTORATIONS {
             return Ok(Some(self.end_of_progress(why)));
         }
+        self.watchdog = None;
+        self.shortened_steps = 0;
         let here = self.current_measure();
         self.filter.add(here.violation, here.objective);
         let zeta = PROXIMITY * self.mu.sqrt();
@@ -52,7 +54,7 @@ impl<'a> Engine<'a> {
         let mu = self.mu.max(norm_max(&self.iterate.residual).min(1e3));
         let elastic = Elastic::new(model, &x, rows, zeta, mu)?;
         let start = crate::model::Model::meta(&elastic).start.clone();
-        let beginning = Beginning { x: &start, multipliers: None, mu: Some(mu), push: Some(start::WARM_PUSH) };
+        let beginning = Beginning { mu: Some(mu), push: Some(start::WARM_PUSH), ..Beginning::at(&start) };
         match Engine::new(Source::Own(Box::new(elastic)), beginning) {
             Ok(engine) => {
                 let last_word = zeta <= LAST_PROXIMITY;

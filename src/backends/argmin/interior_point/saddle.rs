@@ -2,9 +2,10 @@
 //! starts on one, or on the symmetry plane of one; the inertia tells.
 
 use super::engine::Engine;
-use super::kkt::{Blocks, Sides};
+use super::form::Form;
+use super::kkt::{Blocks, Kkt, Sides};
 use super::start;
-use super::vectors::{dot, moved, norm_max};
+use super::vectors::{moved, norm_max};
 use super::{barrier, engine};
 use crate::model::EvaluationError;
 
@@ -13,7 +14,7 @@ const MOST_ESCAPES: usize = 4;
 /// Curvature above −this, relative, is rounding.
 const CURVATURE: f64 = 1e-8;
 /// Inverse iterations towards the direction of least curvature.
-const INVERSE_ITERATIONS: usize = 4;
+const INVERSE_ITERATIONS: usize = 6;
 /// How far the escape goes, relative to the variables.
 const DISTANCE: f64 = 1e-2;
 /// The barrier parameter to go on with.
@@ -57,7 +58,6 @@ impl Engine<'_> {
     /// A direction of negative curvature of the barrier's Lagrangian, tangent to the rows; `None` where there is none.
     fn downward_curvature(&mut self) -> Result<Option<Vec<f64>>, EvaluationError> {
         let Self { form, iterate, hessian, sigma, kkt, .. } = self;
-        let (n, m) = (form.variables(), form.rows.len());
         match form.hessian(&iterate.w, &iterate.y, hessian) {
             Err(EvaluationError::Invalid { .. }) => return Ok(None),
             other => other?,
@@ -65,39 +65,13 @@ impl Engine<'_> {
         barrier::sigma(form, &iterate.w, &iterate.z_lower, &iterate.z_upper, sigma);
         let blocks = Blocks { hessian, jacobian: &iterate.jacobian, sigma };
         // Regularised, so that dependent rows count as negative eigenvalues like all others.
-        if kkt.factor(blocks, 0.0, engine::LAST_REGULARISATION).is_ok_and(|inertia| inertia.negative <= m) {
+        let regularised = kkt.factor(blocks, 0.0, engine::LAST_REGULARISATION);
+        if regularised.is_ok_and(|inertia| inertia.negative <= form.rows.len()) || !kkt.factor_close(blocks) {
             return Ok(None);
         }
-        if !kkt.factor_corrected(blocks, 1.0).unwrap_or(false) {
-            return Ok(None);
-        }
-        let (mut right, mut y, rows) = (vec![0.0; form.size()], vec![0.0; m], vec![0.0; m]);
-        let mut step = vec![0.0; form.size()];
-        for (j, right) in right.iter_mut().take(n).enumerate() {
-            // Any fixed vector without a symmetry will do.
-            *right = 1.0 + ((j as f64 + 1.0) * 0.618_033_988_75).fract();
-        }
-        for _ in 0..INVERSE_ITERATIONS {
-            if kkt.solve(Sides { w: &right, rows: &rows }, &mut step, &mut y).is_err() {
-                return Ok(None);
-            }
-            let size = norm_max(&step);
-            if size == 0.0 {
-                return Ok(None);
-            }
-            right.iter_mut().zip(&step).for_each(|(right, step)| *right = step / size);
-            right[n..].fill(0.0);
-        }
-        let size = norm_max(&step);
-        step.iter_mut().for_each(|step| *step /= size);
-        let mut curvature = (0..form.size()).map(|j| sigma[j] * step[j] * step[j]).sum::<f64>();
-        let mut image = vec![0.0; n];
-        form.hessian.multiply(hessian, &step[..n], &mut image);
-        curvature += 2.0 * dot(&image, &step[..n]);
-        curvature -=
-            (0..n).filter_map(|j| form.hessian.position(j, j as u32).map(|at| hessian[at] * step[j] * step[j])).sum::<f64>();
+        let Some(direction) = inverse_iteration(kkt, form) else { return Ok(None) };
         let significant = -CURVATURE * norm_max(hessian).max(f64::MIN_POSITIVE);
-        Ok((curvature < significant).then_some(step))
+        Ok((curvature(form, hessian, sigma, &direction) < significant).then_some(direction))
     }
 
     /// Makes the trial point the iterate, with a larger barrier parameter and fresh multipliers.
@@ -115,4 +89,34 @@ impl Engine<'_> {
         self.forget();
         Ok(true)
     }
+}
+
+/// The direction of least curvature in the KKT matrix factorised last, tangent to the rows, its largest component 1.
+fn inverse_iteration(kkt: &mut Kkt, form: &Form<'_>) -> Option<Vec<f64>> {
+    let rows = vec![0.0; form.rows.len()];
+    let (mut right, mut step, mut y) = (vec![0.0; form.size()], vec![0.0; form.size()], rows.clone());
+    for (j, right) in right.iter_mut().take(form.variables()).enumerate() {
+        // Any fixed vector without a symmetry will do.
+        *right = 1.0 + ((j as f64 + 1.0) * 0.618_033_988_75).fract();
+    }
+    for _ in 0..INVERSE_ITERATIONS {
+        kkt.solve(Sides { w: &right, rows: &rows }, &mut step, &mut y).ok()?;
+        let size = norm_max(&step);
+        if size == 0.0 {
+            return None;
+        }
+        step.iter_mut().for_each(|step| *step /= size);
+        right.copy_from_slice(&step);
+    }
+    Some(step)
+}
+
+/// dᵀ(W + Σ)d
+fn curvature(form: &Form<'_>, hessian: &[f64], sigma: &[f64], direction: &[f64]) -> f64 {
+    let of_bounds: f64 = sigma.iter().zip(direction).map(|(sigma, d)| sigma * d * d).sum();
+    let of_hessian = form.hessian.iter().zip(hessian).map(|((row, column), value)| {
+        let times = if row == column { 1.0 } else { 2.0 };
+        times * value * direction[row] * direction[column]
+    });
+    of_bounds + of_hessian.sum::<f64>()
 }

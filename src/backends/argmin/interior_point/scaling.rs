@@ -10,8 +10,11 @@ use super::vectors::power_of_two;
 const LARGEST_GRADIENT: f64 = 100.0;
 /// Gradients smaller than this are scaled up to it.
 const SMALLEST_GRADIENT: f64 = 1e-2;
-/// No scale goes beyond this or below its inverse.
+/// Gradients below this share of the row's limit are flat.
+const FLAT: f64 = 1e-8;
+/// No scale goes beyond this or below its inverse, unless it is plainly a matter of units.
 const EXTREME: f64 = 1e12;
+const ANY_UNIT: f64 = 1e60;
 
 /// The scale of a variable: 1 where its start or its bounds are of ordinary size.
 pub(super) fn variable_scale(start: f64, lower: f64, upper: f64) -> f64 {
@@ -23,18 +26,20 @@ pub(super) fn variable_scale(start: f64, lower: f64, upper: f64) -> f64 {
     if (1e-2..=1e2).contains(&magnitude) { 1.0 } else { power_of_two(magnitude.clamp(1.0 / EXTREME, EXTREME)) }
 }
 
-/// The scale that brings a gradient of this size into the ordinary range.
-fn gradient_scale(size: f64) -> f64 {
+/// The scale that brings a gradient of this size into the ordinary range. `value`, the size of the function itself,
+/// tells a gradient that is small because of the units from one that is small because the start is flat.
+pub(super) fn gradient_scale(size: f64, value: f64) -> f64 {
     let wanted = match size {
         size if size > LARGEST_GRADIENT => LARGEST_GRADIENT / size,
         size if size > 0.0 && size < SMALLEST_GRADIENT => SMALLEST_GRADIENT / size,
         _ => 1.0,
     };
-    power_of_two(wanted.clamp(1.0 / EXTREME, EXTREME))
+    let largest = if value > 0.0 && size > FLAT * value { ANY_UNIT } else { EXTREME };
+    power_of_two(wanted.clamp(1.0 / ANY_UNIT, largest))
 }
 
 /// Scales of the objective and of every row, from the gradients of the form as it is (unscaled but for variables).
-pub(super) fn gradient_scales(form: &Form<'_>, gradient: &[f64], jacobian: &[f64]) -> (f64, Vec<f64>) {
+pub(super) fn gradient_scales(form: &Form<'_>, objective: f64, gradient: &[f64], jacobian: &[f64]) -> (f64, Vec<f64>) {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let limit = |i: usize| {
         let meta = form.model.meta();
@@ -45,8 +50,8 @@ pub(super) fn gradient_scales(form: &Form<'_>, gradient: &[f64], jacobian: &[f64
         .map(|i| {
             let size = largest(&jacobian[form.jacobian.range(i)]);
             // A flat start says nothing of the row's size; its limit does.
-            gradient_scale(if size < SMALLEST_GRADIENT { size.max(limit(i)).min(SMALLEST_GRADIENT) } else { size })
+            gradient_scale(if size < FLAT * limit(i) { limit(i) } else { size }, limit(i))
         })
         .collect();
-    (gradient_scale(largest(gradient)), rows)
+    (gradient_scale(largest(gradient), objective.abs()), rows)
 }

@@ -7,7 +7,7 @@ use super::iterate::Iterate;
 use super::kkt::{Blocks, Kkt, Sides};
 use super::scaling;
 use super::vectors::norm_max;
-use crate::model::EvaluationError;
+use crate::model::{EvaluationError, Meta};
 
 /// Larger least-squares multipliers are no guess worth having.
 const LARGEST_GUESS: f64 = 1e3;
@@ -36,7 +36,7 @@ pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64) -> Result<Ite
         iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
     }
     evaluate_in_domain(form, &mut iterate)?;
-    let (objective_scale, row_scale) = scaling::gradient_scales(form, &iterate.gradient, &iterate.jacobian);
+    let (objective_scale, row_scale) = scaling::gradient_scales(form, iterate.objective, &iterate.gradient, &iterate.jacobian);
     form.rescale(objective_scale, row_scale);
     iterate.evaluate(form)?;
     place_slacks(form, &mut iterate, push);
@@ -82,6 +82,12 @@ fn middle(start: f64, lower: f64, upper: f64, j: usize) -> f64 {
         (false, true) => start.min(upper - distance),
         (false, false) => start + distance,
     }
+}
+
+/// The model's x moved this share of the way towards the middle of its bounds.
+pub(super) fn towards_middle(meta: &Meta, x: &[f64], share: f64) -> Vec<f64> {
+    let moved = |(j, &x): (usize, &f64)| x + share * (middle(x, meta.lower[j], meta.upper[j], j) - x);
+    x.iter().enumerate().map(moved).collect()
 }
 
 /// Bound multipliers μ/slack, at most `largest`.
