@@ -89,7 +89,7 @@ def kinds():
 def validity():
     rng = np.random.default_rng(11)
     rings = [np.round(rng.uniform(-1, 1, (int(rng.integers(3, 8)), 2)), 1) for _ in range(120)]
-    return [{"ring": ring.tolist(), "valid": bool(Polygon(ring).is_valid and Polygon(ring).area > 0)} for ring in rings]
+    return [{"ring": ring.tolist(), "valid": bool(Polygon(ring).is_valid and Polygon(ring).area > 1e-12)} for ring in rings]
 
 
 data = {"polygons": polygons(), "kinds": kinds(), "validity": validity()}
