@@ -10,6 +10,7 @@ pub mod bounds_only;
 pub mod class;
 pub mod derivative_check;
 pub mod differences;
+pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;
