@@ -1,27 +1,13 @@
 //! Verdicts as a user meets them: small files, the whole program, exit codes and what is said.
 
+mod support;
+
 use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
+use support::{solve, solve_with};
 use tempfile::TempDir;
-
-/// The exit code and the result of `ribopt solve` with more arguments.
-fn solve_with(problem: &str, arguments: &[&str]) -> (i32, Value) {
-    let folder = TempDir::new().unwrap();
-    let file = folder.path().join("problem.toml");
-    fs::write(&file, problem).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ribopt"));
-    command.args(["solve", "--json", "--max-seconds", "60", "--out"]).arg(folder.path().join("out")).arg(&file).args(arguments);
-    let output = command.output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
-    println!("{text}");
-    (output.status.code().unwrap(), serde_json::from_str(&text).unwrap())
-}
-
-fn solve(problem: &str) -> (i32, Value) {
-    solve_with(problem, &[])
-}
 
 /// A file from an objective, lines of variables, and requirements named r1, r2, ….
 fn problem(objective: &str, variables: &str, rows: &[&str]) -> String {
