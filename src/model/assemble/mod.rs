@@ -8,7 +8,7 @@ mod sum;
 mod template;
 mod walk;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
@@ -198,5 +198,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         objective_groups,
         row_groups,
         row_origin: rows.origin,
+        members: OnceLock::new(),
     }
 }
