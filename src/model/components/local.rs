@@ -23,7 +23,15 @@ impl Components for Apart<'_> {
     }
 
     fn local(&self) -> Box<dyn Local + '_> {
-        Box::new(RibLocal { apart: *self, elements: Vec::new(), inputs: Vec::new(), linear: Vec::new(), affine: Vec::new(), constants: Vec::new(), scratch: Scratch::default() })
+        Box::new(RibLocal {
+            apart: *self,
+            elements: Vec::new(),
+            inputs: Vec::new(),
+            linear: Vec::new(),
+            affine: Vec::new(),
+            constants: Vec::new(),
+            scratch: Scratch::default(),
+        })
     }
 
     fn model(&self, component: usize) -> Box<dyn Model + '_> {
@@ -61,7 +69,13 @@ struct RibLocal<'a> {
 }
 
 /// Gathers an element's inputs; returns (x, room for derivatives, working memory).
-fn gather<'s>(element: &Element<'_>, inputs: &[u32], x: &[f64], scratch: &'s mut Scratch, out: usize) -> (&'s [f64], &'s mut [f64], &'s mut Workspace) {
+fn gather<'s>(
+    element: &Element<'_>,
+    inputs: &[u32],
+    x: &[f64],
+    scratch: &'s mut Scratch,
+    out: usize,
+) -> (&'s [f64], &'s mut [f64], &'s mut Workspace) {
     let Scratch { x: local, out: room, inner } = scratch;
     local.clear();
     local.extend(inputs[element.first..element.first + element.kernel.inputs()].iter().map(|&j| x[j as usize]));
@@ -100,13 +114,16 @@ impl Local for RibLocal<'_> {
         self.constants.extend(rows.iter().map(|&i| model.row_constants[i as usize]));
         self.affine.clear();
         for (row, &i) in rows.iter().enumerate() {
-            let entries = pattern.range(i as usize).map(|at| (row as u32, partition.place(pattern.columns[at]), model.linear_jacobian[at]));
+            let entries =
+                pattern.range(i as usize).map(|at| (row as u32, partition.place(pattern.columns[at]), model.linear_jacobian[at]));
             self.affine.extend(entries.filter(|entry| entry.2 != 0.0));
         }
         self.linear.clear();
         let coefficients = &model.objective.coefficients;
         if !coefficients.is_empty() {
-            let coefficient = |&j: &u32| coefficients.binary_search_by_key(&j, |entry| entry.0).ok().map(|at| (partition.place(j), coefficients[at].1));
+            let coefficient = |&j: &u32| {
+                coefficients.binary_search_by_key(&j, |entry| entry.0).ok().map(|at| (partition.place(j), coefficients[at].1))
+            };
             self.linear.extend(partition.variables(component).iter().filter_map(coefficient));
         }
     }
