@@ -9,8 +9,8 @@ use super::frame::Frame;
 use crate::linear_algebra::cholesky;
 
 /// ε
-const PROXIMAL: f64 = 1e-7;
-const STEPS: usize = 8;
+const PROXIMAL: f64 = 1e-4;
+const STEPS: usize = 12;
 /// The residual at which nothing is left to gain, and the one that is accepted where rounding ends the progress.
 const EXACT: f64 = 1e-14;
 const ACCEPTED: f64 = 1e-11;
@@ -114,7 +114,7 @@ impl Crossover {
 
     /// Factorises W + AᵀA/ε over the free variables.
     fn bends_up(&mut self, frame: &mut Frame<'_>, piece: &Piece<'_>) -> bool {
-        if !frame.second_order(&self.w, &self.y, piece.header, piece.row_scale) {
+        if !frame.second_order(&self.y, piece.header, piece.row_scale) {
             return false;
         }
         let (n, size) = (frame.n, self.free.len());

@@ -1,7 +1,8 @@
 //! One component in the small solver's form: scaled, with slacks; one frame per thread.
 //!
-//! min f(x) subject to c(x) − s = 0 and bounds on w = (x, s). x = d·(scaled x) with d a power of two, so that bounds
-//! survive the way there and back bit for bit.
+//! min f(x) subject to c(x) − s = 0 and bounds on w = (x, s). Variables with a positive lower bound are taken by their
+//! logarithms, and so are nonlinear rows with positive limits: products, powers and quotients, of which structural formulas are
+//! made, become linear or nearly so. The other variables are scaled by powers of two.
 
 use super::arena::{Header, Piece};
 use crate::model::Meta;
@@ -18,7 +19,13 @@ pub(super) struct Frame<'m> {
     local: Box<dyn Local + 'm>,
     pub n: usize,
     pub m: usize,
+    /// x = d·w; 0 where x = exp(w).
     d: Vec<f64>,
+    /// ∂x/∂w at the point evaluated last.
+    slopes: Vec<f64>,
+    logarithmic_rows: Vec<bool>,
+    /// c(x), unscaled.
+    natural_rows: Vec<f64>,
     /// Bounds of w, scaled.
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
@@ -50,6 +57,16 @@ fn scale(start: f64, lower: f64, upper: f64) -> f64 {
     }
 }
 
+/// w from x.
+fn inward(d: f64, x: f64) -> f64 {
+    if d == 0.0 { x.ln() } else { x / d }
+}
+
+/// x from w.
+fn outward(d: f64, w: f64) -> f64 {
+    if d == 0.0 { w.exp() } else { d * w }
+}
+
 impl<'m> Frame<'m> {
     pub fn new(components: &'m dyn Components, meta: &'m Meta, start: &'m [f64]) -> Self {
         Frame {
@@ -60,6 +77,9 @@ impl<'m> Frame<'m> {
             n: 0,
             m: 0,
             d: Vec::new(),
+            slopes: Vec::new(),
+            logarithmic_rows: Vec::new(),
+            natural_rows: Vec::new(),
             lower: Vec::new(),
             upper: Vec::new(),
             x: Vec::new(),
@@ -76,8 +96,11 @@ impl<'m> Frame<'m> {
     pub fn turn_to(&mut self, piece: &Piece<'_>) {
         self.scales_of(piece);
         let (n, m) = (self.n, self.m);
-        for (room, size) in [(&mut self.x, n), (&mut self.weights, m), (&mut self.rows, m), (&mut self.gradient, n)] {
-            room.resize(size, 0.0);
+        for room in [&mut self.x, &mut self.slopes, &mut self.gradient] {
+            room.resize(n, 0.0);
+        }
+        for room in [&mut self.weights, &mut self.rows, &mut self.natural_rows] {
+            room.resize(m, 0.0);
         }
         self.jacobian.resize(m * n, 0.0);
         self.hessian.resize(n * n, 0.0);
@@ -94,20 +117,26 @@ impl<'m> Frame<'m> {
         self.upper.clear();
         for &j in variables {
             let (lower, upper) = (meta.lower[j as usize], meta.upper[j as usize]);
-            let d = scale(start[j as usize], lower, upper);
+            let d = if lower > 0.0 { 0.0 } else { scale(start[j as usize], lower, upper) };
             self.d.push(d);
-            self.lower.push(lower / d);
-            self.upper.push(upper / d);
+            self.lower.push(inward(d, lower));
+            self.upper.push(inward(d, upper));
         }
+        self.logarithmic_rows.clear();
         for (&i, scale) in rows.iter().zip(&*piece.row_scale) {
-            self.lower.push(meta.row_lower[i as usize] * scale);
-            self.upper.push(meta.row_upper[i as usize] * scale);
+            let (lower, upper) = (meta.row_lower[i as usize], meta.row_upper[i as usize]);
+            let positive = upper > 0.0 && (lower > 0.0 || (lower == f64::NEG_INFINITY && upper < f64::INFINITY));
+            let logarithmic = positive && !meta.row_is_linear[i as usize];
+            let limit = |limit: f64| if logarithmic && limit.is_finite() { limit.ln() * scale } else { limit * scale };
+            self.logarithmic_rows.push(logarithmic);
+            self.lower.push(limit(lower));
+            self.upper.push(limit(upper));
         }
     }
 
     /// The start, scaled.
     pub fn start(&self, component: usize) -> impl Iterator<Item = f64> + '_ {
-        self.partition.variables(component).iter().zip(&self.d).map(|(&j, d)| self.start[j as usize] / d)
+        self.partition.variables(component).iter().zip(&self.d).map(|(&j, &d)| inward(d, self.start[j as usize]))
     }
 
     /// Scales of objective and rows by the gradients evaluated last (with all scales 1).
@@ -127,8 +156,17 @@ impl<'m> Frame<'m> {
     }
 
     fn place(&mut self, w: &[f64]) {
-        for ((x, w), d) in self.x.iter_mut().zip(w).zip(&self.d) {
-            *x = w * d;
+        for (((x, slope), w), &d) in self.x.iter_mut().zip(&mut self.slopes).zip(w).zip(&self.d) {
+            *x = outward(d, *w);
+            *slope = if d == 0.0 { *x } else { d };
+        }
+    }
+
+    /// Scaled rows from `natural_rows`.
+    fn scale_rows(&mut self, row_scale: &[f64]) {
+        let natural = self.natural_rows.iter().zip(&self.logarithmic_rows);
+        for ((row, scale), (value, &logarithmic)) in self.rows.iter_mut().zip(row_scale).zip(natural) {
+            *row = scale * if logarithmic { value.ln() } else { *value };
         }
     }
 
@@ -136,8 +174,8 @@ impl<'m> Frame<'m> {
     pub fn values(&mut self, w: &[f64], header: &mut Header, row_scale: &[f64]) -> f64 {
         self.place(w);
         header.evaluations += 1;
-        self.objective = header.objective_scale * self.local.values(&self.x, &mut self.rows);
-        self.rows.iter_mut().zip(row_scale).for_each(|(row, scale)| *row *= scale);
+        self.objective = header.objective_scale * self.local.values(&self.x, &mut self.natural_rows);
+        self.scale_rows(row_scale);
         if self.rows.iter().all(|row| row.is_finite()) { self.objective } else { f64::NAN }
     }
 
@@ -145,67 +183,103 @@ impl<'m> Frame<'m> {
     pub fn first_order(&mut self, w: &[f64], header: &mut Header, row_scale: &[f64]) -> bool {
         self.place(w);
         header.evaluations += 1;
-        self.objective = self.local.first_order(&self.x, &mut self.rows, &mut self.gradient, &mut self.jacobian);
+        self.objective = self.local.first_order(&self.x, &mut self.natural_rows, &mut self.gradient, &mut self.jacobian);
         header.objective = self.objective;
         self.objective *= header.objective_scale;
-        for (gradient, d) in self.gradient.iter_mut().zip(&self.d) {
-            *gradient *= d * header.objective_scale;
+        self.scale_rows(row_scale);
+        for (gradient, slope) in self.gradient.iter_mut().zip(&self.slopes) {
+            *gradient *= slope * header.objective_scale;
         }
-        for ((jacobian, row), scale) in self.jacobian.chunks_exact_mut(self.n.max(1)).zip(&mut self.rows).zip(row_scale) {
-            *row *= scale;
-            jacobian.iter_mut().zip(&self.d).for_each(|(slope, d)| *slope *= d * scale);
+        for (i, jacobian) in self.jacobian.chunks_exact_mut(self.n.max(1)).enumerate() {
+            let scale = if self.logarithmic_rows[i] { row_scale[i] / self.natural_rows[i] } else { row_scale[i] };
+            jacobian.iter_mut().zip(&self.slopes).for_each(|(entry, slope)| *entry *= slope * scale);
         }
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         self.objective.is_finite() && finite(&self.rows) && finite(&self.gradient) && finite(&self.jacobian)
     }
 
-    /// The Lagrangian's Hessian at w, scaled. `false`: some entries are no numbers.
-    pub fn second_order(&mut self, w: &[f64], y: &[f64], header: &Header, row_scale: &[f64]) -> bool {
-        self.place(w);
-        self.weights.iter_mut().zip(y).zip(row_scale).for_each(|((weight, y), scale)| *weight = y * scale);
+    /// The Lagrangian's Hessian at w, scaled, first derivatives there being known. `false`: some entries are no numbers.
+    pub fn second_order(&mut self, y: &[f64], header: &Header, row_scale: &[f64]) -> bool {
+        let n = self.n;
+        for (i, weight) in self.weights.iter_mut().enumerate() {
+            let scale = y[i] * row_scale[i];
+            *weight = if self.logarithmic_rows[i] { scale / self.natural_rows[i] } else { scale };
+        }
         self.local.hessian(&self.x, header.objective_scale, &self.weights, &mut self.hessian);
-        let mut finite = true;
-        for i in 0..self.n {
-            for j in 0..=i {
-                let entry = &mut self.hessian[i * self.n + j];
-                *entry *= self.d[i] * self.d[j];
-                finite &= entry.is_finite();
+        for (i, row) in self.hessian.chunks_exact_mut(n.max(1)).enumerate() {
+            row.iter_mut().zip(&self.slopes[..=i]).for_each(|(entry, slope)| *entry *= self.slopes[i] * slope);
+        }
+        self.add_bends(y, row_scale);
+        (0..n).all(|i| self.hessian[i * n..=i * n + i].iter().all(|entry| entry.is_finite()))
+    }
+
+    /// What the logarithms of variables and rows bend by themselves: diag(∂L/∂w) where x = exp(w), −∇ĉ∇ĉᵀ of logarithmic rows.
+    fn add_bends(&mut self, y: &[f64], row_scale: &[f64]) {
+        let n = self.n;
+        for j in (0..n).filter(|&j| self.d[j] == 0.0) {
+            let pull: f64 = y.iter().enumerate().map(|(i, y)| y * self.jacobian[i * n + j]).sum();
+            self.hessian[j * n + j] += self.gradient[j] + pull;
+        }
+        for (i, row) in self.jacobian.chunks_exact(n.max(1)).enumerate().filter(|&(i, _)| self.logarithmic_rows[i] && y[i] != 0.0)
+        {
+            let weight = y[i] / row_scale[i];
+            for (j, &slope) in row.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+                let factor = weight * slope;
+                for (entry, other) in self.hessian[j * n..=j * n + j].iter_mut().zip(row) {
+                    *entry -= factor * other;
+                }
             }
         }
-        finite
     }
 
     /// The largest violation of the rows by the values evaluated last: absolute, and relative to large limits.
-    pub fn violation(&self, row_scale: &[f64]) -> (f64, f64) {
-        let beyond = |i: usize| {
-            let (lower, upper) = (self.lower[self.n + i], self.upper[self.n + i]);
-            let (below, above) = ((lower - self.rows[i]).max(0.0), (self.rows[i] - upper).max(0.0));
-            let relative = (below / lower.abs().max(1.0)).max(above / upper.abs().max(1.0));
-            (below.max(above) / row_scale[i], relative)
+    pub fn violation(&self, component: usize) -> (f64, f64) {
+        let beyond = |(&row, value): (&u32, &f64)| {
+            let (lower, upper) = (self.meta.row_lower[row as usize], self.meta.row_upper[row as usize]);
+            let (below, above) = ((lower - value).max(0.0), (value - upper).max(0.0));
+            (below.max(above), (below / lower.abs().max(1.0)).max(above / upper.abs().max(1.0)))
         };
-        (0..self.m).map(beyond).fold((0.0, 0.0), |worst: (f64, f64), next| (worst.0.max(next.0), worst.1.max(next.1)))
+        let all = self.partition.rows(component).iter().zip(&self.natural_rows).map(beyond);
+        all.fold((0.0, 0.0), |worst: (f64, f64), next| (worst.0.max(next.0), worst.1.max(next.1)))
     }
 
-    /// The component's variables with their unscaled values, inside their bounds to the last digit.
+    /// The component's variables with their unscaled values: exactly on the bounds they rest on, never beyond.
     pub fn unscaled<'f>(&'f self, piece: &'f Piece<'_>) -> impl Iterator<Item = (u32, f64)> + 'f {
-        let (meta, variables) = (self.meta, self.partition.variables(piece.component));
-        let inside = move |(j, x): (u32, f64)| (j, x.min(meta.upper[j as usize]).max(meta.lower[j as usize]));
-        variables.iter().zip(&*piece.w).zip(&self.d).map(|((&j, w), d)| (j, w * d)).map(inside)
+        let variables = self.partition.variables(piece.component);
+        variables.iter().enumerate().map(|(at, &j)| {
+            let (w, lower, upper) = (piece.w[at], self.meta.lower[j as usize], self.meta.upper[j as usize]);
+            let x = match w {
+                _ if w == self.lower[at] => lower,
+                _ if w == self.upper[at] => upper,
+                _ => outward(self.d[at], w).min(upper).max(lower),
+            };
+            (j, x)
+        })
     }
 
     /// The component's rows with their unscaled multipliers.
     pub fn multipliers<'f>(&'f self, piece: &'f Piece<'_>) -> impl Iterator<Item = (u32, f64)> + 'f {
-        let rows = self.partition.rows(piece.component).iter().zip(&*piece.y).zip(&*piece.row_scale);
-        rows.map(|((&i, y), scale)| (i, y * scale / piece.header.objective_scale))
+        let factors = self.row_factors(piece);
+        self.partition.rows(piece.component).iter().zip(&*piece.y).zip(factors).map(|((&i, y), factor)| (i, y * factor))
+    }
+
+    /// What unscales each row's multiplier. A row that has one rests on its limit: that is its value.
+    fn row_factors<'f>(&'f self, piece: &'f Piece<'_>) -> impl Iterator<Item = f64> + 'f {
+        self.partition.rows(piece.component).iter().enumerate().map(|(at, &i)| {
+            let (lower, upper) = (self.meta.row_lower[i as usize], self.meta.row_upper[i as usize]);
+            let limit = if lower > 0.0 && (piece.y[at] < 0.0 || upper == f64::INFINITY) { lower } else { upper };
+            let value = if self.logarithmic_rows[at] { limit } else { 1.0 };
+            piece.row_scale[at] / piece.header.objective_scale / value
+        })
     }
 
     /// Takes unscaled values and multipliers as the piece's iterate.
     pub fn take(&self, piece: &mut Piece<'_>, x: &[f64], multipliers: &[f64]) {
-        for ((w, x), d) in piece.w.iter_mut().zip(x).zip(&self.d) {
-            *w = x / d;
+        for (at, &x) in x.iter().enumerate() {
+            piece.w[at] = inward(self.d[at], x);
         }
-        for ((y, given), scale) in piece.y.iter_mut().zip(multipliers).zip(&*piece.row_scale) {
-            *y = if *scale > 0.0 { given * piece.header.objective_scale / scale } else { *given };
-        }
+        piece.y.copy_from_slice(multipliers);
+        let factors: Vec<f64> = self.row_factors(piece).collect();
+        piece.y.iter_mut().zip(factors).for_each(|(y, factor)| *y /= factor);
     }
 }

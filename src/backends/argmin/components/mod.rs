@@ -19,7 +19,7 @@ mod newton;
 mod step;
 
 use argmin::argmin_error;
-use argmin::core::{Error, KV, Problem, Solver};
+use argmin::core::{Error, KV, Problem, Solver, State};
 use rayon::prelude::*;
 
 use super::interior_point;
@@ -48,14 +48,13 @@ pub(super) struct Components<'a> {
     pieces: &'a dyn Pieces,
     start: &'a [f64],
     arena: Arena,
-    x: Vec<f64>,
 }
 
 impl<'a> Components<'a> {
     /// From `start`.
     pub fn new(pieces: &'a dyn Pieces, model: &'a dyn Model, start: &'a [f64]) -> Self {
         let arena = Arena::new(pieces.partition(), model.meta(), LARGEST);
-        Components { pieces, start, arena, x: start.to_vec() }
+        Components { pieces, start, arena }
     }
 
     /// One step of every component under way; hard ones are solved to their end.
@@ -75,20 +74,22 @@ impl<'a> Components<'a> {
     }
 
     /// x of all components.
-    fn gather(&mut self, model: &'a Evaluator<'a>) {
+    fn x(&mut self, model: &'a Evaluator<'a>) -> Vec<f64> {
+        let mut x = self.start.to_vec();
         let mut frame = Frame::new(self.pieces, model.meta(), self.start);
         for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
             frame.scales_of(&piece);
-            frame.unscaled(&piece).for_each(|(j, x)| self.x[j as usize] = x);
+            frame.unscaled(&piece).for_each(|(j, value)| x[j as usize] = value);
         }
+        x
     }
 
-    fn point(&mut self, model: &'a Evaluator<'a>) -> Point {
-        self.gather(model);
+    /// The current iterate without x: putting it together at every iteration would cost more than the iteration.
+    fn progress(&self) -> Point {
         let headers = self.arena.headers();
         let worst = |value: fn(&Header) -> f64| headers.iter().map(value).fold(0.0, f64::max);
         Point {
-            x: self.x.clone(),
+            x: Vec::new(),
             objective: self.pieces.constant() + headers.iter().map(|header| header.objective).sum::<f64>(),
             relative_violation: worst(|header| header.relative_violation),
             feasibility: worst(|header| header.violation),
@@ -99,11 +100,12 @@ impl<'a> Components<'a> {
 
     fn answer(&mut self, model: &'a Evaluator<'a>) -> Point {
         let mut multipliers = vec![0.0; model.meta().rows()];
-        let frame = Frame::new(self.pieces, model.meta(), self.start);
+        let mut frame = Frame::new(self.pieces, model.meta(), self.start);
         for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
+            frame.scales_of(&piece);
             frame.multipliers(&piece).for_each(|(i, y)| multipliers[i as usize] = y);
         }
-        Point { multipliers: Some(multipliers), ..self.point(model) }
+        Point { x: self.x(model), multipliers: Some(multipliers), ..self.progress() }
     }
 
     fn step_norm(&self) -> f64 {
@@ -116,9 +118,21 @@ impl<'a> Components<'a> {
 
     fn conclusion(&self) -> Conclusion {
         let headers = self.arena.headers();
-        let failed = headers.iter().filter(|header| header.phase == Phase::Failed).count();
+        if std::env::var("DEBUGC").is_ok() {
+            let mut h = std::collections::BTreeMap::new();
+            for x in headers {
+                *h.entry((x.iterations / 5 * 5, x.hard, x.tried < 1e300 && x.error < 1e-12)).or_insert(0) += 1;
+            }
+            eprintln!("{h:?}");
+        }
+        let failed = headers.iter().filter(|header| header.phase != Phase::Solved).count();
         let error = headers.iter().map(|header| header.error).fold(0.0, f64::max);
         let count = headers.len();
+        if !self.is_done() {
+            let message =
+                format!("the limit on iterations is reached: {failed} of {count} independent components are not solved");
+            return Conclusion { termination: Termination::LimitReached, message, invalid: None };
+        }
         let (termination, message) = if failed == 0 {
             (Termination::Converged, format!("{count} independent components, optimality error {error:.1e}"))
         } else {
@@ -140,6 +154,7 @@ fn by_sparse_interior_point(pieces: &dyn Pieces, start: &[f64], mut frame: Frame
     }
     frame.turn_to(piece);
     let header = &mut piece.header;
+    header.hard = true;
     header.evaluations = u32::try_from(evaluator.evaluations()).unwrap_or(u32::MAX);
     header.phase = if solved.is_some() { Phase::Solved } else { Phase::Failed };
     let Some(point) = solved else { return };
@@ -161,7 +176,7 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for Components<'a> {
     ) -> Result<(NlpState<'s>, Option<KV>), Error> {
         let model = given(problem)?;
         self.advance(model);
-        let point = self.point(model);
+        let point = self.progress();
         Ok((state.at(point, 0.0, model.evaluations()), None))
     }
 
@@ -176,9 +191,9 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for Components<'a> {
             return Ok((state.conclude(Conclusion::of(&EvaluationError::Stopped(stop)), Some(answer)), None));
         }
         self.advance(model);
-        let point = self.point(model);
+        let point = self.progress();
         let state = state.at(point, self.step_norm(), model.evaluations());
-        if !self.is_done() {
+        if !self.is_done() && state.get_iter() + 1 < state.get_max_iters() {
             return Ok((state, None));
         }
         let answer = self.answer(model);

@@ -98,7 +98,7 @@ impl<'m> Stepper<'m> {
     }
 
     fn note(&mut self, piece: &mut Piece<'_>) {
-        (piece.header.violation, piece.header.relative_violation) = self.frame.violation(piece.row_scale);
+        (piece.header.violation, piece.header.relative_violation) = self.frame.violation(piece.component);
         piece.header.error = self.error(piece, 0.0);
     }
 
@@ -124,7 +124,7 @@ impl<'m> Stepper<'m> {
                 return Go::Hard;
             }
         }
-        if !self.frame.second_order(piece.w, piece.y, piece.header, piece.row_scale) || !self.newton.compute(&self.frame, piece) {
+        if !self.frame.second_order(piece.y, piece.header, piece.row_scale) || !self.newton.compute(&self.frame, piece) {
             return Go::Hard;
         }
         if close && piece.header.mu <= LAST_BARRIER {
@@ -134,7 +134,7 @@ impl<'m> Stepper<'m> {
     }
 
     fn note_crossover(&mut self, piece: &mut Piece<'_>) {
-        (piece.header.violation, piece.header.relative_violation) = self.frame.violation(piece.row_scale);
+        (piece.header.violation, piece.header.relative_violation) = self.frame.violation(piece.component);
         piece.header.error = self.crossover.error;
     }
 
