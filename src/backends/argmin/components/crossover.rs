@@ -1,19 +1,20 @@
 //! From a point of the barrier's path to the minimum itself: Newton's method on the limits that seem active.
 //!
-//! Each step solves (W + AᵀA/ε)·dx = −∇L − Aᵀg/ε over the free variables, dy = (A·dx + g)/ε: a proximal point of the KKT system, whose fixed
-//! point is exact whatever ε is, and whose matrix is positive definite exactly where (for small ε) the minimum is strict.
+//! Each step solves the KKT system [W Aᵀ; A −δI] over the free variables by P = W + AᵀA/ε, positive definite where (for small ε)
+//! the minimum is strict, and the Schur complement A·P⁻¹·Aᵀ + δI. δ tames dependent limits without moving the fixed point.
 
 use super::arena::Piece;
 use super::barrier::distances;
 use super::frame::Frame;
 use crate::linear_algebra::cholesky;
 
-/// ε
-const PROXIMAL: f64 = 1e-4;
+/// ε and δ
+const AUGMENTATION: f64 = 1e-3;
+const PROXIMAL: f64 = 1e-10;
 const STEPS: usize = 12;
 /// The residual at which nothing is left to gain, and the one that is accepted where rounding ends the progress.
 const EXACT: f64 = 1e-14;
-const ACCEPTED: f64 = 1e-11;
+const ACCEPTED: f64 = 1e-12;
 /// Multipliers of the wrong sign up to this are zero.
 const ZERO: f64 = 1e-12;
 
@@ -38,6 +39,10 @@ pub(super) struct Crossover {
     residual: Vec<f64>,
     matrix: Vec<f64>,
     step: Vec<f64>,
+    /// P⁻¹Aᵀ, a row per limit.
+    spread: Vec<f64>,
+    schur: Vec<f64>,
+    moves: Vec<f64>,
 }
 
 impl Crossover {
@@ -93,7 +98,9 @@ impl Crossover {
                 return false;
             }
             last = self.error;
-            self.advance(frame);
+            if !self.advance(frame) {
+                return false;
+            }
         }
         false
     }
@@ -123,27 +130,51 @@ impl Crossover {
         for (a, &i) in self.free.iter().enumerate() {
             for (b, &j) in self.free[..=a].iter().enumerate() {
                 let rows: f64 = self.held.iter().map(|&row| frame.jacobian[row * n + i] * frame.jacobian[row * n + j]).sum();
-                self.matrix[a * size + b] = frame.hessian[i * n + j] + rows / PROXIMAL;
+                self.matrix[a * size + b] = frame.hessian[i * n + j] + rows / AUGMENTATION;
             }
         }
         cholesky::factor(&mut self.matrix, size)
     }
 
-    fn advance(&mut self, frame: &Frame<'_>) {
-        let n = frame.n;
+    /// One Newton step. `false`: the limits are dependent beyond what δ tames.
+    fn advance(&mut self, frame: &Frame<'_>) -> bool {
+        let (n, free, held) = (frame.n, self.free.len(), self.held.len());
+        self.spread.clear();
+        for &i in &self.held {
+            let first = self.spread.len();
+            self.spread.extend(self.free.iter().map(|&j| frame.jacobian[i * n + j]));
+            cholesky::solve(&self.matrix, &mut self.spread[first..]);
+        }
+        // P·dx + Aᵀ·dy = −∇L − Aᵀg/ε and A·dx − δ·dy = −g.
         self.step.clear();
         for (&j, residual) in self.free.iter().zip(&self.residual) {
             let push: f64 = self.held.iter().map(|&i| frame.jacobian[i * n + j] * (frame.rows[i] - self.w[n + i])).sum();
-            self.step.push(-residual - push / PROXIMAL);
+            self.step.push(-residual - push / AUGMENTATION);
         }
         cholesky::solve(&self.matrix, &mut self.step);
-        for &i in &self.held {
-            let moved: f64 = self.free.iter().zip(&self.step).map(|(&j, step)| frame.jacobian[i * n + j] * step).sum();
-            self.y[i] += (moved + frame.rows[i] - self.w[n + i]) / PROXIMAL;
+        self.schur.clear();
+        self.schur.resize(held * held, 0.0);
+        self.moves.clear();
+        for (a, &i) in self.held.iter().enumerate() {
+            let along = |v: &[f64]| self.free.iter().zip(v).map(|(&j, v)| frame.jacobian[i * n + j] * v).sum::<f64>();
+            self.moves.push(along(&self.step) + frame.rows[i] - self.w[n + i]);
+            for b in 0..=a {
+                self.schur[a * held + b] = along(&self.spread[b * free..(b + 1) * free]);
+            }
+            self.schur[a * held + a] = self.schur[a * held + a] * (1.0 + PROXIMAL) + f64::MIN_POSITIVE;
+        }
+        if !cholesky::factor(&mut self.schur, held) {
+            return false;
+        }
+        cholesky::solve(&self.schur, &mut self.moves);
+        for ((&i, dy), spread) in self.held.iter().zip(&self.moves).zip(self.spread.chunks_exact(free.max(1))) {
+            self.y[i] += dy;
+            self.step.iter_mut().zip(spread).for_each(|(step, spread)| *step -= spread * dy);
         }
         for (&j, step) in self.free.iter().zip(&self.step) {
             self.w[j] += step;
         }
+        true
     }
 
     /// Whether the limits left out hold; slacks of free rows follow their rows.
