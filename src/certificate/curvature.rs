@@ -14,8 +14,9 @@ use crate::model::{EvaluationError, Model};
 
 /// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
 const ROUNDING: f64 = 1e-7;
-/// Weakly active limits tested one by one at the most.
+/// Weakly active limits tested one by one at the most, and what all these factorisations together may cost (sum of orders).
 const WEAK_LIMITS: usize = 64;
+const WEAK_WORK: usize = 400_000;
 
 /// What the second derivatives say.
 #[derive(Default)]
@@ -54,6 +55,11 @@ pub(super) fn is_dependent(point: &Point<'_>, active: &Active<'_>) -> bool {
     }
 }
 
+/// Row by row, the magnitudes D∇²L D/σ is summed from.
+pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result<Vec<f64>, EvaluationError> {
+    Hessian::of(point, multipliers).map(|hessian| hessian.size)
+}
+
 /// The whole test.
 pub(super) fn examine(point: &Point<'_>, active: &Active<'_>) -> Result<Curvature, EvaluationError> {
     let hessian = Hessian::of(point, active.multipliers)?;
@@ -72,8 +78,8 @@ fn judge(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Result<Cu
 }
 
 /// Weakly active limits hold on one side only: a direction that leaves one of them inwards must not bend down either (or a
-/// maximum on a bound with zero multiplier would pass). Each is let go by itself; more than a few at once are left to the test
-/// on the null space.
+/// maximum on a bound with zero multiplier would pass). Each is let go by itself; more than one at once, and all of them in very large
+/// problems, are left to the test on the null space.
 fn one_sided(
     point: &Point<'_>,
     active: &Active<'_>,
@@ -90,7 +96,8 @@ fn one_sided(
         |&&i: &&usize| active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak;
     let bounds: Vec<usize> = (0..active.bounds.len()).filter(is_weak_bound).filter(|&j| hessian.size[j] > 0.0).collect();
     let rows: Vec<usize> = held.iter().filter(is_weak_row).copied().collect();
-    for &j in bounds.iter().take(WEAK_LIMITS) {
+    let tried = WEAK_LIMITS.min(WEAK_WORK / (free.len() + held.len() + 1));
+    for &j in bounds.iter().take(tried) {
         let mut more = free.to_vec();
         more.insert(more.partition_point(|&k| k < j), j);
         if let Some(direction) = bending(point, hessian, &more, held)? {
@@ -98,7 +105,7 @@ fn one_sided(
             return Ok(Some(turned(direction, inward)));
         }
     }
-    for &i in rows.iter().take(WEAK_LIMITS) {
+    for &i in rows.iter().take(tried) {
         let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
         if let Some(direction) = bending(point, hessian, free, &fewer)? {
             let pattern = &point.meta().jacobian;

@@ -7,9 +7,9 @@
 use super::matrix::Symmetric;
 use crate::linear_algebra::FactorizationError;
 
-/// The proximal weight ε², relative to columns of size one.
-const PROXIMAL: f64 = 1e-10;
-const REPETITIONS: usize = 6;
+/// The proximal weight ε², relative to columns of size one: below the squares of the distances that decide.
+const PROXIMAL: f64 = 1e-13;
+const REPETITIONS: usize = 12;
 
 /// One column of B with its sign and weight.
 pub(super) struct Column {
@@ -144,6 +144,16 @@ mod tests {
         let pair = [column(&[(0, 1.0)], 0.0), column(&[(0, 1.0), (1, 1e-3)], 0.0)];
         let y = solve(&[-1.0, -1e-3], &pair).unwrap();
         assert!(y[0].abs() < 1e-8 && (y[1] - 1.0).abs() < 1e-8, "{y:?}");
+    }
+
+    #[test]
+    fn of_two_explanations_the_nearer_limit_carries_the_multiplier() {
+        // Columns 0 and 1 alone balance g; 2 and 3 could take their place, but lie 5e−6 away.
+        let far = |entry: u32| Column { weight: 5e-6, ..column(&[(entry, 1.0)], -1.0) };
+        let y =
+            solve(&[1.0, 1.0, 0.0], &[column(&[(0, 1.0), (2, 1.0)], -1.0), column(&[(1, 1.0), (2, -1.0)], -1.0), far(0), far(1)])
+                .unwrap();
+        assert!((y[0] + 1.0).abs() < 1e-9 && (y[1] + 1.0).abs() < 1e-9 && y[2].abs() < 1e-9, "{y:?}");
     }
 
     #[test]

@@ -70,6 +70,9 @@ impl<'a> Certifier<'a> {
         let point = Point::new(&self.origin, x)?;
         let multipliers = multipliers::find(&point, guess);
         let mut certificate = first_order(&point, &multipliers, &self.tolerances);
+        if certificate.dual_infeasibility > self.tolerances.optimality && certificate.is_feasible(&self.tolerances) {
+            certificate.dual_infeasibility = beyond_rounding(&point, &multipliers)?;
+        }
         certificate.scope = Scope::of(self.class);
         let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers: &multipliers };
         if self.is_stationary(&certificate) {
@@ -85,7 +88,7 @@ impl<'a> Certifier<'a> {
         } else if certificate.is_feasible(&self.tolerances) {
             certificate.multipliers_not_unique = curvature::is_dependent(&point, &active);
         }
-        certificate.messages = words::messages(&point, &certificate, &self.tolerances);
+        certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
         certificate.row_values = point.rows;
@@ -119,7 +122,7 @@ fn first_order(point: &Point<'_>, multipliers: &Multipliers, tolerances: &Tolera
     Certificate {
         objective: point.objective,
         primal_infeasibility: worst_violation(point).1,
-        dual_infeasibility: worst_slope(point, multipliers).1,
+        dual_infeasibility: worst_slope(point, multipliers, None).1,
         complementarity: worst_complementarity(point, multipliers).1,
         row_sides: (0..meta.rows()).map(row_side).collect(),
         bound_sides: (0..meta.variables()).map(bound_side).collect(),
@@ -148,14 +151,24 @@ fn worst_violation(point: &Point<'_>) -> Worst {
     rows.chain(bounds).fold((None, 0.0), worse)
 }
 
-/// max |∂L/∂x_j|·d_j/σ and where.
-fn worst_slope(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
+/// max |∂L/∂x_j|·d_j/σ and where, less what rounding explains.
+fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[f64]>) -> Worst {
     if point.sigma == 0.0 {
         return (None, 0.0);
     }
     let rest = point.row_gradient(&multipliers.rows);
-    let slope = |j: usize| ((rest[j] + multipliers.bounds[j]) * point.d[j] / point.sigma).abs();
+    let slope = |j: usize| {
+        let slope = ((rest[j] + multipliers.bounds[j]) * point.d[j] / point.sigma).abs();
+        (slope - rounding.map_or(0.0, |rounding| rounding[j])).max(0.0)
+    };
     (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
+}
+
+/// Dual infeasibility where σ itself may be rounding (a start that is stationary, or the minimum): what the last digits of x make
+/// of ∂L/∂x_j, through the Hessian, does not count.
+fn beyond_rounding(point: &Point<'_>, multipliers: &Multipliers) -> Result<f64, EvaluationError> {
+    let rounding: Vec<f64> = curvature::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
+    Ok(worst_slope(point, multipliers, Some(&rounding)).1)
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

@@ -7,6 +7,9 @@ use crate::model::Model;
 /// Single variables tried at the most.
 const TRIED: usize = 32;
 
+/// Nothing of a size of one belongs this far away.
+const BEYOND: f64 = 1e30;
+
 /// The variables along whose way from the start the objective still falls, however far one goes; empty at a true minimum.
 pub(super) fn variables(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
     let mut far: Vec<(f64, usize)> = (0..point.x.len()).filter_map(|j| travelled(point, j).map(|way| (way, j))).collect();
@@ -41,6 +44,9 @@ fn falls_for_ever(point: &Point<'_>, variables: &[usize], way: f64, tolerance: f
         }
         feasible_objective(point, &x, tolerance)
     };
+    if way > BEYOND {
+        return true;
+    }
     let mut last = point.objective;
     for factor in [0.1, 1.0, 10.0, 100.0] {
         match value(factor) {

@@ -1,16 +1,22 @@
 //! What a certificate found, in plain sentences.
 
+use super::multipliers::Multipliers;
 use super::point::Point;
 use super::{Certificate, Place, Tolerances, worst_violation};
 
 /// One sentence per failed test, naming the variable or row; then remarks.
-pub(super) fn messages(point: &Point<'_>, certificate: &Certificate, tolerances: &Tolerances) -> Vec<String> {
+pub(super) fn messages(
+    point: &Point<'_>,
+    multipliers: &Multipliers,
+    certificate: &Certificate,
+    tolerances: &Tolerances,
+) -> Vec<String> {
     let mut all = Vec::new();
     if !certificate.is_feasible(tolerances) {
         all.push(violation(point, tolerances));
     }
     if certificate.dual_infeasibility > tolerances.optimality {
-        all.push(slope(point, certificate, tolerances));
+        all.push(slope(point, multipliers, certificate, tolerances));
     }
     if certificate.complementarity > tolerances.optimality {
         all.push(format!(
@@ -51,10 +57,10 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
     format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {:.1e})", tolerances.constraint)
 }
 
-fn slope(point: &Point<'_>, certificate: &Certificate, tolerances: &Tolerances) -> String {
+fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {
     let sizes =
         format!("({:.1e} of the objective's scale, accepted {:.1e})", certificate.dual_infeasibility, tolerances.optimality);
-    let place = super::worst_slope(point, &super::multipliers::find(point, None)).0;
+    let place = super::worst_slope(point, multipliers, None).0;
     let name = match place {
         Some(Place::Variable(j)) => point.variable(j),
         _ => "a variable".into(),

@@ -9,6 +9,16 @@ use crate::model::{Budget, Class, Model};
 /// A solver may stop where the certificate holds with this much to spare: answers are usually far better than what is accepted.
 const SPARE: f64 = 1e-3;
 
+/// What one run begins with, and when it may end.
+struct Start<'r> {
+    x: &'r [f64],
+    multipliers: Option<&'r [f64]>,
+    budget: Budget<'r>,
+    stop: &'r StopTest<'r>,
+}
+
+type StopTest<'r> = dyn Fn(&[f64]) -> bool + Sync + 'r;
+
 /// A backend with its algorithm.
 #[derive(Clone, Copy)]
 pub(super) struct Contestant<'a> {
@@ -50,7 +60,8 @@ impl<'a> Referee<'a> {
     ) -> Answer {
         let Some(other) = self.task.substitution else {
             let stop = |x: &[f64]| self.strict.accepts(x);
-            let solution = self.solve(contestant, self.task.model, start, multipliers, budget, Some(&stop), observer);
+            let start = Start { x: start, multipliers, budget, stop: &stop };
+            let solution = self.solve(contestant, self.task.model, &start, observer);
             return self.judged(contestant, solution);
         };
         let stop = |z: &[f64]| self.strict.accepts(&self.outward(z));
@@ -58,9 +69,10 @@ impl<'a> Referee<'a> {
             let objective = other.outward_objective(iteration.objective);
             observer(&Iteration { objective, x: &self.outward(iteration.x), ..*iteration });
         };
-        let start = other.inward(start);
+        let inward = other.inward(start);
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
-        let mut solution = self.solve(contestant, other.model(), &start, None, budget, Some(&stop), &mut translated);
+        let start = Start { x: &inward, multipliers: None, budget, stop: &stop };
+        let mut solution = self.solve(contestant, other.model(), &start, &mut translated);
         solution.multipliers = None;
         solution.x = self.outward(&solution.x);
         self.judged(contestant, solution)
@@ -77,31 +89,27 @@ impl<'a> Referee<'a> {
     }
 
     /// Runs a backend on any model with the task's settings.
-    #[allow(clippy::too_many_arguments)]
-    pub(super) fn solve(
+    fn solve(
         &self,
         contestant: Contestant<'_>,
         model: &dyn Model,
-        start: &[f64],
-        multipliers: Option<&[f64]>,
-        budget: Budget<'_>,
-        stop: Option<&(dyn Fn(&[f64]) -> bool + Sync)>,
+        start: &Start<'_>,
         observer: &mut dyn FnMut(&Iteration<'_>),
     ) -> Solution {
         if let Some(reason) = contestant.backend.refusal(contestant.algorithm, model) {
-            return refused(contestant.algorithm, start, reason);
+            return refused(contestant.algorithm, start.x, reason);
         }
         let settings = self.task.settings;
         let mut job = Job {
             algorithm: contestant.algorithm,
-            start,
-            start_multipliers: multipliers,
+            start: start.x,
+            start_multipliers: start.multipliers,
             optimality_tolerance: settings.optimality_tolerance,
             step_tolerance: settings.step_tolerance,
             constraint_tolerance: settings.constraint_tolerance,
             max_iterations: settings.max_iterations,
-            budget,
-            stop_test: stop,
+            budget: start.budget,
+            stop_test: Some(start.stop),
             observer,
         };
         contestant.backend.solve(model, &mut job)
@@ -116,7 +124,8 @@ impl<'a> Referee<'a> {
         budget: Budget<'_>,
     ) -> Solution {
         let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances));
-        self.solve(contestant, model, start, None, budget, Some(&|x| own.accepts(x)), &mut |_| {})
+        let stop = |x: &[f64]| own.accepts(x);
+        self.solve(contestant, model, &Start { x: start, multipliers: None, budget, stop: &stop }, &mut |_| {})
     }
 
     fn judged(&self, contestant: Contestant<'_>, solution: Solution) -> Answer {

@@ -37,7 +37,8 @@ pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], ans
     if meta.lower.iter().chain(&meta.upper).all(|bound| bound.is_finite()) {
         return None;
     }
-    let points: Vec<_> = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| &answer.solution.x).collect();
+    let answers = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| answer.solution.x.as_slice());
+    let points: Vec<&[f64]> = answers.chain([referee.task.start]).collect();
     let along_way = points.iter().find_map(|x| follow(referee, x, &difference(x, &meta.start)));
     let gradient = |x: &[f64]| {
         let mut gradient = vec![0.0; x.len()];
@@ -88,7 +89,7 @@ fn corner(referee: &Referee<'_>, contestant: Contestant<'_>, width: f64) -> Opti
 /// Follows `from + t·direction` over nine decades: feasible throughout and falling at every step, or no ray.
 fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray> {
     let (meta, model) = (referee.task.model.meta(), referee.task.model);
-    let direction = cleaned(direction, meta)?;
+    let direction = cleaned(direction, from, meta)?;
     let value = |t: f64| {
         let x: Vec<f64> = from.iter().zip(&direction).map(|(x, v)| x + t * v).collect();
         let feasible = referee.judge.primal_infeasibility(&x)? <= referee.tolerances.constraint;
@@ -115,9 +116,10 @@ fn classify(falls: &[f64]) -> Option<Fall> {
     Some(if endless { Fall::Endless } else { Fall::Settling })
 }
 
-/// Without noise and without components towards a bound; `None` where nothing is left. Its largest relative entry is 1.
-fn cleaned(direction: &[f64], meta: &Meta) -> Option<Vec<f64>> {
-    let size = |j: usize| meta.start[j].abs().max(f64::from(u8::from(meta.start[j] == 0.0)));
+/// Without noise and without components towards a bound; `None` where nothing is left. Its largest entry, relative to the point
+/// it sets out from, is 1: shorter steps would show the tangent only.
+fn cleaned(direction: &[f64], from: &[f64], meta: &Meta) -> Option<Vec<f64>> {
+    let size = |j: usize| meta.start[j].abs().max(from[j].abs()).max(f64::from(u8::from(meta.start[j] == 0.0)));
     let open = |j: usize, v: f64| if v > 0.0 { meta.upper[j] == f64::INFINITY } else { meta.lower[j] == f64::NEG_INFINITY };
     let kept: Vec<f64> = direction.iter().enumerate().map(|(j, &v)| if open(j, v) { v } else { 0.0 }).collect();
     let largest = kept.iter().enumerate().fold(0.0, |most: f64, (j, v)| most.max(v.abs() / size(j)));

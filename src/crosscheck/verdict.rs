@@ -79,7 +79,7 @@ pub(super) fn undecided(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome 
         Status::Interrupted
     } else if answers.iter().any(runs_away) {
         Status::NotAttained
-    } else if referee.clock.is_over() || ended(Termination::LimitReached) {
+    } else if referee.clock.is_over() || (ended(Termination::LimitReached) && !ended(Termination::Converged)) {
         Status::LimitReached
     } else if answers.iter().all(|answer| answer.certificate.is_none() || answer.solution.invalid.is_some())
         && !answers.is_empty()

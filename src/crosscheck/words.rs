@@ -20,14 +20,12 @@ pub(super) fn certified(outcome: &mut Outcome) {
             message.push_str(&format!(" {} did not get there: {}.", answer.backend, why(answer)));
         }
     }
-    if let Some(agreement) = outcome.agreement.filter(|agreement| !agreement.agree) {
-        if outcome.answers.iter().all(|answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified)) {
-            message.push_str(&format!(
-                " The backends ended at different minima ({:.3e} apart in the objective).",
-                agreement.objective_difference
-            ));
-            outcome.remedy.get_or_insert_with(|| "look for the best one with --starts N".into());
-        }
+    let all_pass =
+        outcome.answers.iter().all(|answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified));
+    if let Some(agreement) = outcome.agreement.filter(|agreement| all_pass && !agreement.agree) {
+        let apart = agreement.objective_difference;
+        message.push_str(&format!(" The backends ended at different minima ({apart:.3e} apart in the objective)."));
+        outcome.remedy.get_or_insert_with(|| "look for the best one with --starts N".into());
     }
     let remarks = outcome.certificate.iter().flat_map(|certificate| &certificate.messages).map(|text| sentence(text));
     message.extend(remarks);

@@ -10,7 +10,8 @@ use crate::problem::{Sense, Settings, VolumeLaw};
 pub(super) struct Declaration {
     pub title: Option<String>,
     pub units: Vec<(String, String)>,
-    pub objective: Option<(Sense, Written)>,
+    /// The sense and the expression; no expression where it is of a wrong type.
+    pub objective: Option<(Sense, Option<Written>)>,
     pub parameters: Vec<(Name, Numbers)>,
     pub variables: Vec<VariableEntry>,
     pub definitions: Vec<(Name, Scalar)>,

@@ -14,8 +14,8 @@ use crate::problem::Sense;
 /// The whole file.
 pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
     let mut top = Fields::of(document, Place::Whole);
-    let mut declared = Declaration::default();
-    declared.title = top.take("title").and_then(|field| field.text(reader)).map(|title| title.text);
+    let title = top.take("title").and_then(|field| field.text(reader)).map(|title| title.text);
+    let mut declared = Declaration { title, ..Declaration::default() };
     objective(&mut top, &mut declared, reader);
     for field in named(&mut top, "units", reader) {
         declared.units.extend(field.text(reader).map(|label| (field.key.to_owned(), label.text)));
@@ -67,8 +67,7 @@ fn objective(top: &mut Fields, declared: &mut Declaration, reader: &mut Reader) 
         reader.findings.mistake(second.key_place, "two objectives", help);
     }
     let sense = if minimize.is_some() { Sense::Minimize } else { Sense::Maximize };
-    let written = minimize.or(maximize).and_then(|field| field.text(reader));
-    declared.objective = written.map(|written| (sense, written));
+    declared.objective = minimize.or(maximize).map(|field| (sense, field.text(reader)));
 }
 
 fn numbers(field: &Field, reader: &mut Reader) -> Option<Numbers> {

@@ -6,10 +6,12 @@
 mod assemble;
 mod declaration;
 mod declare;
+mod example;
 mod fields;
 mod findings;
 mod load;
 mod mistake;
+mod schema;
 mod source;
 mod table;
 mod table_lines;
@@ -20,9 +22,11 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::problem::Problem;
+pub use example::{example, examples};
 use fields::Reader;
 use findings::Findings;
 pub use mistake::{Mistake, Mistakes, render};
+pub use schema::schema;
 use source::{Place, Source};
 
 /// What a problem file gives.
@@ -88,10 +92,25 @@ fn syntax(source: &Source, errors: &[toml::de::Error], findings: &mut Findings) 
     let span = |error: &toml::de::Error| error.span().unwrap_or(end..end);
     let lines: Vec<usize> = errors.iter().map(|error| source.line(span(error).start)).collect();
     findings.forget_lines(source, &lines);
-    for error in errors {
-        let help = error.message().contains("duplicate key").then(|| "keep one of the two".to_owned());
-        findings.mistake(Place::file(span(error)), error.message(), help);
+    let mut seen = Vec::new();
+    for (error, line) in errors.iter().zip(lines) {
+        // After the first error of a line the rest of it is read out of step.
+        if !seen.contains(&line) {
+            seen.push(line);
+            let help = error.message().contains("duplicate key").then(|| earlier(source, span(error)));
+            findings.mistake(Place::file(span(error)), error.message(), help.flatten());
+        }
     }
+}
+
+/// Where a key stood first: the nearest line above, in the same table, that begins with it.
+fn earlier(source: &Source, key: std::ops::Range<usize>) -> Option<String> {
+    let (text, before) = (source.text.get(key.clone())?, source.text.get(..key.start)?);
+    let above: Vec<&str> = before.lines().collect();
+    let within = above.iter().enumerate().rev().skip(1).take_while(|(_, line)| !line.trim_start().starts_with('['));
+    let begins = |line: &str| line.trim_start().strip_prefix(text).is_some_and(|rest| rest.trim_start().starts_with('='));
+    let first = within.filter(|(_, line)| begins(line)).last().map(|(at, _)| at + 1)?;
+    Some(format!("the first stands at {}:{first}; keep one of the two", source.name))
 }
 
 fn one_line(warning: &Mistake) -> String {

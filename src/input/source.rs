@@ -10,7 +10,7 @@ pub(super) enum Place {
     /// Bytes of the problem file.
     File { start: u32, end: u32 },
     /// A row of a CSV table: the table's number, the line, and which field ([`Place::WHOLE_ROW`] for the whole row).
-    Row { table: u8, field: u16, line: u32 },
+    Row { table: u8, line: u32, field: u16 },
     /// Bytes of a `--set` argument.
     Argument { number: u16, start: u32, end: u32 },
     /// The problem file as a whole.

@@ -7,8 +7,8 @@
 use super::{EvaluationError, Meta, Model, Pattern};
 
 /// φ for given multipliers and penalty; see the module's page.
-pub struct Augmented<'a> {
-    model: &'a dyn Model,
+pub struct Augmented<M> {
+    model: M,
     meta: Meta,
     places: Places,
     multipliers: Vec<f64>,
@@ -21,19 +21,19 @@ struct Places {
     products: Vec<u32>,
 }
 
-impl<'a> Augmented<'a> {
-    /// Positions of outer products that are held at the most; each row of k entries takes k(k+1)/2.
-    pub const MOST_PRODUCTS: usize = 20_000_000;
+/// Positions of outer products that are held at the most; each row of k entries takes k(k+1)/2.
+pub const MOST_PRODUCTS: usize = 20_000_000;
 
-    /// The number of positions of outer products `meta` would need.
-    pub fn products(meta: &Meta) -> usize {
-        (0..meta.rows()).map(|row| meta.jacobian.range(row).len()).fold(0, |sum, k| sum.saturating_add(k * (k + 1) / 2))
-    }
+/// The number of positions of outer products that rows need.
+pub fn needed_products(meta: &Meta) -> usize {
+    (0..meta.rows()).map(|row| meta.jacobian.range(row).len()).fold(0, |sum, k| sum.saturating_add(k * (k + 1) / 2))
+}
 
+impl<M: Model> Augmented<M> {
     /// φ with zero multipliers and penalty 1. `None` where rows are so dense that their outer products do not fit.
-    pub fn new(model: &'a dyn Model) -> Option<Self> {
+    pub fn new(model: M) -> Option<Self> {
         let inner = model.meta();
-        if Self::products(inner) > Self::MOST_PRODUCTS {
+        if needed_products(inner) > MOST_PRODUCTS {
             return None;
         }
         let mut positions: Vec<(u32, u32)> = inner.hessian.iter().map(|(row, column)| (row as u32, column as u32)).collect();
@@ -50,6 +50,11 @@ impl<'a> Augmented<'a> {
             ..Meta::default()
         };
         Some(Augmented { multipliers: vec![0.0; inner.rows()], penalty: 1.0, model, meta, places })
+    }
+
+    /// The model itself.
+    pub fn model(&self) -> &M {
+        &self.model
     }
 
     /// Sets y (length m) and ρ > 0.
@@ -96,7 +101,7 @@ impl Places {
     }
 }
 
-impl Model for Augmented<'_> {
+impl<M: Model> Model for Augmented<M> {
     fn meta(&self) -> &Meta {
         &self.meta
     }
@@ -179,8 +184,7 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_differences() {
-        let model = model();
-        let mut augmented = Augmented::new(&model).unwrap();
+        let mut augmented = Augmented::new(model()).unwrap();
         augmented.set(&[0.3, 1.2, -0.8, 0.0], 7.0);
         let (x, step) = ([0.7, 1.1, 0.9], 1e-6);
         let gradient = |x: &[f64]| {
@@ -206,8 +210,7 @@ mod tests {
 
     #[test]
     fn multipliers_take_the_sign_of_the_side() {
-        let model = model();
-        let mut augmented = Augmented::new(&model).unwrap();
+        let mut augmented = Augmented::new(model()).unwrap();
         augmented.set(&[0.0; 4], 10.0);
         assert_eq!(augmented.next_multipliers(&[0.5, 3.0, 0.25, 7.0]), [-5.0, 10.0, -2.5, 0.0]);
     }

@@ -2,6 +2,8 @@
 //!
 //! h ≤ hw is outside the model's domain, and no solver respects a domain; it does respect the bound t > 0.
 
+use std::sync::Arc;
+
 use super::{EvaluationError, Meta, Model, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
 use crate::sections;
@@ -10,8 +12,8 @@ use crate::sections;
 const THINNEST: f64 = 1e-9;
 
 /// A model in which some variables are replaced by their difference to another one.
-pub struct Differences<'a> {
-    model: &'a dyn Model,
+pub struct Differences {
+    model: Arc<dyn Model + Send>,
     /// For each variable, the one whose value is to be added: x_j = z_j + z_partner.
     partner: Vec<Option<u32>>,
     /// The replaced variables, in the order of the rows that keep their bounds.
@@ -25,7 +27,7 @@ pub struct Differences<'a> {
 
 const NOWHERE: u32 = u32::MAX;
 
-impl<'a> Differences<'a> {
+impl Differences {
     /// The pairs (h, hw) of the problem whose bounds let the flange vanish.
     pub fn pairs(problem: &Problem) -> Vec<(usize, usize)> {
         let mut taken = vec![false; problem.variables.lower.len()];
@@ -52,7 +54,7 @@ impl<'a> Differences<'a> {
     }
 
     /// Replaces h by h − hw for each pair (h, hw); no variable may stand in two pairs.
-    pub fn new(model: &'a dyn Model, pairs: &[(usize, usize)]) -> Self {
+    pub fn new(model: Arc<dyn Model + Send>, pairs: &[(usize, usize)]) -> Self {
         let user = model.meta();
         let mut partner = vec![None; user.variables()];
         for &(h, hw) in pairs {
@@ -142,7 +144,7 @@ fn connect_hessian(user: &Meta, partner: &[Option<u32>], meta: &mut Meta) -> Vec
         .collect()
 }
 
-impl Substitution for Differences<'_> {
+impl Substitution for Differences {
     fn model(&self) -> &dyn Model {
         self
     }
@@ -169,7 +171,7 @@ impl Substitution for Differences<'_> {
     }
 }
 
-impl Model for Differences<'_> {
+impl Model for Differences {
     fn meta(&self) -> &Meta {
         &self.meta
     }
@@ -234,7 +236,7 @@ impl Model for Differences<'_> {
     }
 }
 
-impl Differences<'_> {
+impl Differences {
     /// x(z) as it is, not moved into bounds: derivatives must be those of a linear map.
     fn raw(&self, z: &[f64]) -> Vec<f64> {
         let mut x = z.to_vec();
@@ -275,7 +277,7 @@ mod tests {
     #[test]
     fn derivatives_stay_exact() {
         let model = model();
-        let differences = Differences::new(&model, &[(0, 1)]);
+        let differences = Differences::new(Arc::new(model), &[(0, 1)]);
         let check = derivative_check(&differences, &[0.23, 0.45, 0.3]).unwrap();
         assert_eq!(check.disagreements, 0, "{:?}", check.worst);
         assert!(check.compared > 10);
@@ -284,7 +286,7 @@ mod tests {
     #[test]
     fn points_go_there_and_back_and_bounds_become_a_row() {
         let model = model();
-        let differences = Differences::new(&model, &[(0, 1)]);
+        let differences = Differences::new(Arc::new(model), &[(0, 1)]);
         let x = [0.7, 0.5, 0.3];
         let z = differences.inward(&x);
         assert!(z.iter().zip([0.2, 0.5, 0.3]).all(|(z, expected): (&f64, f64)| (z - expected).abs() < 1e-15));

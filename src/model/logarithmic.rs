@@ -1,10 +1,12 @@
 //! A model in the logarithms of its variables, y = ln x: posynomials become convex, monomial rows affine.
 
+use std::sync::Arc;
+
 use super::{EvaluationError, Meta, Model, Pattern, Substitution};
 
 /// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
-pub struct Logarithmic<'a> {
-    model: &'a dyn Model,
+pub struct Logarithmic {
+    model: Arc<dyn Model + Send>,
     meta: Meta,
     /// Rows replaced by their logarithm.
     monomial: Vec<bool>,
@@ -17,17 +19,17 @@ pub struct Logarithmic<'a> {
     diagonal: Vec<u32>,
 }
 
-impl<'a> Logarithmic<'a> {
+impl Logarithmic {
     /// The model in log variables. `monomial` says which rows are monomials with a positive factor.
     ///
     /// `None` unless every variable is positive between its bounds and the start, moved off zero, has values.
-    pub fn new(model: &'a dyn Model, monomial: Vec<bool>) -> Option<Self> {
+    pub fn new(model: Arc<dyn Model + Send>, monomial: Vec<bool>) -> Option<Self> {
         let user = model.meta();
         if user.lower.iter().any(|&lower| lower < 0.0) || user.upper.iter().any(|&upper| upper <= 0.0) {
             return None;
         }
         let start: Vec<f64> = (0..user.variables()).map(|j| positive(user.start[j], user.upper[j])).collect();
-        let (exponents, constants) = monomials(model, &start, &monomial)?;
+        let (exponents, constants) = monomials(model.as_ref(), &start, &monomial)?;
         let (hessian, slots, diagonal) = with_diagonal(&user.hessian);
         let limit = |limits: &[f64]| -> Vec<f64> {
             limits.iter().zip(&monomial).map(|(&limit, &monomial)| if monomial { ln(limit) } else { limit }).collect()
@@ -102,7 +104,7 @@ fn with_diagonal(pattern: &Pattern) -> (Pattern, Vec<u32>, Vec<u32>) {
     (full, slots, diagonal)
 }
 
-impl Substitution for Logarithmic<'_> {
+impl Substitution for Logarithmic {
     fn model(&self) -> &dyn Model {
         self
     }
@@ -124,7 +126,7 @@ impl Substitution for Logarithmic<'_> {
     }
 }
 
-impl Model for Logarithmic<'_> {
+impl Model for Logarithmic {
     fn meta(&self) -> &Meta {
         &self.meta
     }
@@ -224,7 +226,7 @@ mod tests {
             &[(0.1, 0.6, 1.0), (0.1, 0.4, 0.9), (0.0, 0.2, 1.0)],
             &[(1e-3, f64::INFINITY), (0.0, 1.0)],
         );
-        let log = Logarithmic::new(&model, vec![true, false]).unwrap();
+        let log = Logarithmic::new(Arc::new(model), vec![true, false]).unwrap();
         let check = derivative_check(&log, &[-0.7, -1.1, -0.4]).unwrap();
         assert_eq!(check.disagreements, 0, "{:?}", check.worst);
         let mut jacobian = [0.0; 6];
@@ -240,6 +242,6 @@ mod tests {
     #[test]
     fn variables_that_may_be_negative_have_no_logarithm() {
         let model = Handmade::new(Posynomials, &[(-0.1, 0.6, 1.0), (0.1, 0.4, 0.9), (0.0, 0.2, 1.0)], &[]);
-        assert!(Logarithmic::new(&model, vec![]).is_none());
+        assert!(Logarithmic::new(Arc::new(model), vec![]).is_none());
     }
 }

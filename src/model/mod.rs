@@ -26,7 +26,7 @@ pub mod substitution;
 
 use thiserror::Error;
 
-pub use assemble::{AssemblyError, assemble};
+pub use assemble::{AssemblyError, Classification, assemble, classify};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;

@@ -87,6 +87,16 @@ pub enum Formula {
     },
 }
 
+impl Formula {
+    /// The number, where it is one.
+    pub fn as_constant(&self) -> Option<f64> {
+        match self {
+            Formula::Constant(value) => Some(*value),
+            _ => None,
+        }
+    }
+}
+
 impl Default for Formula {
     fn default() -> Self {
         Formula::Constant(0.0)

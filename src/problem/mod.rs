@@ -2,9 +2,11 @@
 //!
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
+pub mod affine;
 pub mod cells;
 mod collections;
 pub mod evaluate;
+pub mod existence;
 pub mod formula;
 pub mod kinks;
 pub mod mentions;
@@ -12,6 +14,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+mod ratio;
 pub mod resolve;
 pub mod settings;
 

@@ -5,9 +5,10 @@ pub(crate) fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>)
     nearest(name, known).map(|best| format!("did you mean `{best}`?"))
 }
 
-/// The known name with the fewest edits, if at most a third of the letters differ (one in short names).
+/// The known name with the fewest edits, if at most a third of the letters differ (one in short names, none in single letters).
 fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (name.chars().count() / 3).max(1);
+    let letters = name.chars().count();
+    let allowed = if letters < 2 { 0 } else { (letters / 3).max(1) };
     let (lower, length) = (name.to_lowercase(), name.len());
     known
         .filter(|candidate| candidate.len().abs_diff(length) <= 4 * allowed)

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::RunError;
 use crate::input;
-use crate::model::{Class, Model, RibModel, Substitution, assemble};
+use crate::model::differences::Differences;
+use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
 use crate::report::result::Mistake;
@@ -19,8 +20,15 @@ pub struct Subject {
     pub class: Class,
     /// Tolerances and limits: the file's, unless the command line changed them.
     pub settings: Settings,
+    /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
+    pub warnings: Vec<String>,
     problem: Arc<Problem>,
-    model: RibModel,
+    model: Arc<RibModel>,
+    /// Which terms keep it from being a geometric program and from being convex.
+    pub not_geometric: Option<String>,
+    /// Which term keeps it from being convex.
+    pub not_convex: Option<String>,
+    substitution: Option<Box<dyn Substitution + Send>>,
 }
 
 impl Subject {
@@ -29,9 +37,13 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let input = input::read_with(file, changes)
-            .map_err(|mistakes| RunError::Input(mistakes.to_string(), mistakes.list.iter().map(reported).collect()))?;
-        Subject::assemble(input.problem.without_kinks(), file, input.sha256)
+        let input = input::read_with(file, changes).map_err(|mistakes| {
+            let list = mistakes.list.iter().map(reported).collect();
+            RunError::Input(mistakes.to_string(), list)
+        })?;
+        let mut subject = Subject::assemble(input.problem.without_kinks(), file, input.sha256)?;
+        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
+        Ok(subject)
     }
 
     /// Assembles a checked declaration that was read from `file`.
@@ -50,16 +62,32 @@ impl Subject {
             has_sections: !problem.sections.names.is_empty(),
             warnings: problem.warnings.clone(),
         };
-        let model = assemble(&problem).map_err(|error| {
+        let too_dense = |error: AssemblyError| {
             let mistake = Mistake { file: Some(about.file.clone()), ..Mistake::of_command(error.to_string()) };
             RunError::Input(format!("mistake: {error}\n--> {}", about.file), vec![mistake])
-        })?;
-        Ok(Subject { about, class: Class::default(), settings: problem.settings.clone(), problem, model })
+        };
+        let model = Arc::new(assemble(&problem).map_err(too_dense)?);
+        let Classification { class, logarithmic, not_geometric, not_convex } = classify(&model).map_err(too_dense)?;
+        let substitution = match logarithmic {
+            Some(logarithmic) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
+            None => differences(&problem, &model),
+        };
+        Ok(Subject {
+            class,
+            settings: problem.settings.clone(),
+            warnings: Vec::new(),
+            about,
+            problem,
+            model,
+            not_geometric,
+            not_convex,
+            substitution,
+        })
     }
 
     /// The problem in the user's variables, minimised.
     pub fn model(&self) -> &dyn Model {
-        &self.model
+        self.model.as_ref()
     }
 
     /// The declaration.
@@ -69,7 +97,7 @@ impl Subject {
 
     /// The same in variables that are easier to solve in, where there are any.
     pub fn substitution(&self) -> Option<&dyn Substitution> {
-        None
+        self.substitution.as_deref().map(|other| other as &dyn Substitution)
     }
 
     /// −1 where the user maximises.
@@ -91,6 +119,12 @@ impl Subject {
         let [total, frustum, prismatoid] = totals;
         Some(Volumes { total, frustum, prismatoid })
     }
+}
+
+/// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.
+fn differences(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Substitution + Send>> {
+    let pairs = Differences::pairs(problem);
+    (!pairs.is_empty()).then(|| Box::new(Differences::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
 }
 
 /// A row whose value is a total volume.

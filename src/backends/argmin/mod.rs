@@ -17,7 +17,6 @@ use argmin::core::observers::ObserverMode;
 use argmin::core::{Executor, Solver};
 
 use super::{Backend, Iteration, Job, Solution, Termination};
-use crate::model::scaled::Scaled;
 use crate::model::{EvaluationError, Evaluator, Model};
 use augmented_lagrangian::AugmentedLagrangian;
 use components::Components;
@@ -72,16 +71,10 @@ impl Backend for Argmin {
     }
 }
 
-/// The augmented Lagrangian, in the units of its start.
 fn augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
-    let (x, scales) = match augmented_lagrangian::start(evaluator, job.start) {
-        Ok(found) => found,
-        Err(error) => return Finished::without_value(job.start, &error),
-    };
-    let scaled = Scaled::new(evaluator, scales);
-    match AugmentedLagrangian::new(&scaled, &x, job) {
-        Some(solver) => run(solver, evaluator, job),
-        None => Finished::failed(job.start, "the rows are too dense".into()),
+    match AugmentedLagrangian::new(evaluator, job) {
+        Ok(solver) => run(solver, evaluator, job),
+        Err(error) => Finished::without_value(job.start, &error),
     }
 }
 

@@ -119,10 +119,18 @@ pub(super) fn able(meta: &Meta) -> Vec<&'static str> {
     TABLE.iter().filter(|algorithm| algorithm.obstacle(meta).is_none()).map(|algorithm| algorithm.name).collect()
 }
 
+/// Whether bounds leave nothing to vary.
+pub(super) fn is_fixed(meta: &Meta) -> bool {
+    meta.lower == meta.upper
+}
+
 impl Algorithm {
     /// Why this algorithm cannot take the problem.
     pub fn obstacle(&self, meta: &Meta) -> Option<String> {
         let size = Size::of(meta);
+        if size.crossed > 0 {
+            return Some(format!("needs bounds that do not cross, and {} variables have lower above upper", size.crossed));
+        }
         match self.rows {
             Rows::None if size.rows() > 0 => return Some(format!("takes bounds only, and there are {} rows", size.rows())),
             Rows::Inequalities if size.equalities > 0 => {
@@ -156,16 +164,18 @@ impl Algorithm {
 struct Size {
     variables: usize,
     open: usize,
+    crossed: usize,
     inequalities: usize,
     equalities: usize,
 }
 
 impl Size {
     fn of(meta: &Meta) -> Self {
-        let mut size = Size { variables: 0, open: 0, inequalities: 0, equalities: 0 };
+        let mut size = Size { variables: 0, open: 0, crossed: 0, inequalities: 0, equalities: 0 };
         for (&lower, &upper) in meta.lower.iter().zip(&meta.upper) {
             size.variables += usize::from(lower < upper);
             size.open += usize::from(!(lower.is_finite() && upper.is_finite()));
+            size.crossed += usize::from(lower > upper);
         }
         for (&lower, &upper) in meta.row_lower.iter().zip(&meta.row_upper) {
             let equality = lower == upper;

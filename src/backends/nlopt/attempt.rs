@@ -76,8 +76,13 @@ impl Session<'_, '_, '_> {
 
     fn candidate(&self, objective: f64) -> Candidate {
         let (violation, feasibility) = self.form.violation(&self.point.rows);
-        let x = self.form.unscaled(&self.point.full);
-        Candidate { x, objective: self.form.unscaled_objective(objective), violation, feasibility }
+        Candidate {
+            x: self.form.unscaled(&self.point.full),
+            objective: self.form.unscaled_objective(objective),
+            scaled_objective: objective,
+            violation,
+            feasibility,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::attempt::{End, SEED, run};
 use super::form::Form;
-use super::plan::{From, Step, Unit};
+use super::plan::{From, Plan, Step, Unit};
 use super::watch::Watch;
 use crate::model::scaled::{Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
@@ -20,10 +20,10 @@ pub(super) struct Outcome {
 }
 
 /// Runs `plan`; the answer is in the watch.
-pub(super) fn drive(plan: &[Step], evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> Option<Outcome> {
+pub(super) fn drive(plan: &Plan, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> Option<Outcome> {
     let mut driver = Driver { evaluator, watch, attempts: 0 };
     let mut counted: Option<(&'static str, End)> = None;
-    for step in plan {
+    for step in &plan.steps {
         let before = driver.watch.iterations();
         let end = driver.step(step);
         let is_final = driver.is_over(&end);
@@ -32,6 +32,9 @@ pub(super) fn drive(plan: &[Step], evaluator: &Evaluator<'_>, watch: &mut Watch<
             counted = Some((step.algorithm.name, end));
         }
         if is_final {
+            if driver.watch.proved().is_some() {
+                driver.second_opinions(plan);
+            }
             break;
         }
     }
@@ -45,6 +48,15 @@ struct Driver<'d, 'm, 'w, 'j> {
 }
 
 impl Driver<'_, '_, '_, '_> {
+    /// Cheap looks for a better minimum than the one proved.
+    fn second_opinions(&mut self, plan: &Plan) {
+        for step in &plan.opinions {
+            if let End::Stopped(_) = self.attempt(step, step.from, None) {
+                break;
+            }
+        }
+    }
+
     /// Whether nothing further should be tried.
     fn is_over(&self, end: &End) -> bool {
         let trusts_nlopt = self.watch.job().stop_test.is_none() && !self.watch.is_infeasible();
@@ -53,6 +65,7 @@ impl Driver<'_, '_, '_, '_> {
             End::Invalid(_) => self.watch.proved().is_some(),
             End::Ended { code, .. } => {
                 self.watch.proved().is_some()
+                    || self.watch.is_unbounded()
                     || self.watch.iterations() >= self.watch.job().max_iterations
                     || (trusts_nlopt && (*code > 0 || *code == -4))
             }
@@ -107,6 +120,7 @@ impl Driver<'_, '_, '_, '_> {
             Err(error) => return End::Invalid(error.to_string()),
         };
         let form = Form::new(self.evaluator, scales, &x, trust);
+        self.watch.begin();
         self.watch.measure(|x| form.violation_at(x));
         run(step.algorithm, &form, step.evaluations, self.evaluator, self.watch)
     }
@@ -144,12 +158,13 @@ fn clamp(mut x: Vec<f64>, meta: &Meta) -> Vec<f64> {
 /// `x` moved by up to ±share of each variable's size, always in the same way (SplitMix64).
 fn nudged(mut x: Vec<f64>, share: f64, meta: &Meta) -> Vec<f64> {
     let mut state = u64::from(SEED);
-    for value in &mut x {
+    for (j, value) in x.iter_mut().enumerate() {
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mixed = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         let uniform = ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
-        let size = if *value == 0.0 { 1.0 } else { value.abs() };
+        let room = meta.upper[j] - meta.lower[j];
+        let size = if *value == 0.0 { room.min(1.0) } else { value.abs().min(room) };
         *value += share * size * (2.0 * uniform - 1.0);
     }
     clamp(x, meta)

@@ -34,6 +34,7 @@ unsafe extern "C" {
     fn nlopt_set_xtol_rel(opt: Handle, tolerance: f64) -> c_int;
     fn nlopt_set_maxeval(opt: Handle, count: c_int) -> c_int;
     fn nlopt_set_maxtime(opt: Handle, seconds: f64) -> c_int;
+    fn nlopt_set_param(opt: Handle, name: *const c_char, value: f64) -> c_int;
     fn nlopt_set_local_optimizer(opt: Handle, local: Handle) -> c_int;
     fn nlopt_force_stop(opt: Handle) -> c_int;
     fn nlopt_get_errmsg(opt: Handle) -> *const c_char;
@@ -88,6 +89,10 @@ pub(super) struct Outcome {
     /// A callback panicked with these words.
     pub panic: Option<String>,
 }
+
+/// Steps of the dual problem inside one iteration of MMA and CCSAQ: NLopt's own limit of 100 000 can take minutes
+/// without a single evaluation, in which nothing could stop it.
+const DUAL_STEPS: f64 = 2_000.0;
 
 struct Optimizer(Handle);
 
@@ -224,13 +229,14 @@ pub(super) fn minimise(setup: &Setup<'_>, functions: &mut dyn Functions, x: &mut
     let inner = setup.inner.and_then(|name| Optimizer::new(name, n));
     let mut value = 0.0;
     // SAFETY: the handle is live; bounds and x have n entries (checked above), tolerances at least as many as there are
-    // rows (NLopt copies them); `data` outlives the run, and the callbacks have the types NLopt declares.
+    // rows (NLopt copies them, and the parameter's name); `data` outlives the run, and the callbacks have the types NLopt declares.
     let code = unsafe {
         nlopt_srand(c_ulong::from(setup.seed));
         if let Some(inner) = &inner {
             inner.set_tolerance(setup.tolerance);
             nlopt_set_local_optimizer(optimizer.0, inner.0);
         }
+        nlopt_set_param(optimizer.0, c"dual_maxeval".as_ptr(), DUAL_STEPS);
         nlopt_set_maxeval(optimizer.0, c_int::try_from(setup.evaluations).unwrap_or(c_int::MAX));
         nlopt_set_maxtime(optimizer.0, setup.seconds.unwrap_or(0.0));
         let steps = [

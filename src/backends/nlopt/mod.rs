@@ -36,6 +36,9 @@ impl Backend for Nlopt {
 
     fn refusal(&self, algorithm: &str, model: &dyn Model) -> Option<String> {
         let meta = model.meta();
+        if algorithms::is_fixed(meta) && (algorithm == "auto" || algorithms::find(algorithm).is_some()) {
+            return None;
+        }
         let able = algorithms::able(meta);
         let obstacle = match (algorithm, algorithms::find(algorithm)) {
             ("auto", _) if able.is_empty() => "auto finds no algorithm for this problem".to_owned(),
@@ -53,6 +56,7 @@ impl Backend for Nlopt {
         let began = Instant::now();
         let mut solution = match self.refusal(job.algorithm, model).or_else(|| odd_start(model, job.start)) {
             Some(refusal) => Solution { termination: Termination::Refused, message: refusal, ..blank(job) },
+            None if algorithms::is_fixed(model.meta()) => fixed(job),
             None => run(model, job),
         };
         solution.seconds = began.elapsed().as_secs_f64();
@@ -80,6 +84,11 @@ fn blank(job: &Job<'_>) -> Solution {
     }
 }
 
+/// The answer where there is nothing to vary.
+fn fixed(job: &Job<'_>) -> Solution {
+    Solution { termination: Termination::Converged, message: "every variable is fixed".into(), ..blank(job) }
+}
+
 fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
     let blank = blank(job);
     let meta = model.meta();
@@ -87,6 +96,7 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
         Some(algorithm) => plan::named(algorithm, meta),
         None => plan::automatic(meta),
     };
+    let is_auto = job.algorithm == "auto";
     let evaluator = Evaluator::new(model, job.budget);
     let mut watch = Watch::new(job);
     let outcome = driver::drive(&plan, &evaluator, &mut watch);
@@ -97,8 +107,8 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
         None => Solution { message: "NLopt: there was nothing to try".into(), ..blank },
         Some(outcome) => Solution {
             algorithm: outcome.algorithm.into(),
-            termination: termination(&outcome.end, watch.proved().is_some()),
-            message: message(&outcome, watch.proved().is_some()),
+            termination: termination(&outcome.end, watch.proved().is_some() || watch.is_unbounded(), is_auto),
+            message: message(&outcome, &watch),
             x,
             evaluations,
             invalid: invalid(&outcome.end, watch.proved().is_some()),
@@ -107,10 +117,12 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
     }
 }
 
-fn termination(end: &End, proved: bool) -> Termination {
+fn termination(end: &End, settled: bool, is_auto: bool) -> Termination {
     match end {
-        _ if proved => Termination::Converged,
+        _ if settled => Termination::Converged,
         End::Stopped(Stop::Interrupted) => Termination::Interrupted,
+        // 5: the plan's own limit on evaluations, which the user never set; `auto` has given up.
+        End::Ended { code: 5, .. } if is_auto => Termination::Failed,
         // 5: evaluations, 6: time, −5: the watch counted max_iterations.
         End::Stopped(_) | End::Ended { code: 5 | 6 | -5, .. } => Termination::LimitReached,
         // −4: rounding limits progress, which is where a solution often lies.
@@ -126,15 +138,21 @@ fn invalid(end: &End, proved: bool) -> Option<String> {
     }
 }
 
-fn message(outcome: &Outcome, proved: bool) -> String {
+fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
     let Outcome { algorithm, end, attempts } = outcome;
     let how = match end {
-        End::Ended { code: -5, .. } if proved => "stopped where the stop test passed".to_owned(),
+        End::Ended { code: -5, .. } if watch.is_unbounded() => "stopped where the objective falls without end".to_owned(),
+        End::Ended { code: -5, .. } if watch.proved().is_some() => "stopped after the stop test passed".to_owned(),
+        End::Ended { code: -5, .. } => "stopped at the limit on iterations".to_owned(),
         End::Ended { words, .. } => format!("ended with {words}"),
         End::Stopped(stop) => format!("stopped: {stop}"),
         End::Invalid(error) => format!("ended where the model has no value ({error})"),
     };
-    let tries = if *attempts == 1 { String::new() } else { format!(" in attempt {attempts}") };
-    let passed = if proved && !how.ends_with("passed") { "; the stop test passed" } else { "" };
-    format!("NLopt's {algorithm} {how}{tries}{passed}")
+    let tries = if *attempts == 1 { String::new() } else { format!(", {attempts} attempts in all") };
+    let point = match watch.best() {
+        _ if watch.proved().is_some() && !how.ends_with("passed") => "; the stop test passed".to_owned(),
+        Some(best) if watch.is_infeasible() => format!("; rows are violated by up to {:.3e}", best.feasibility),
+        _ => String::new(),
+    };
+    format!("NLopt's {algorithm} {how}{tries}{point}")
 }

@@ -40,26 +40,53 @@ pub(super) struct Step {
     pub evaluations: u64,
 }
 
-/// The steps of one named algorithm.
-pub(super) fn named(algorithm: &'static Algorithm, meta: &Meta) -> Vec<Step> {
+/// What is tried.
+pub(super) struct Plan {
+    /// One after the other, until the certificate passes.
+    pub steps: Vec<Step>,
+    /// Once it has passed: cheap looks for a better minimum, each once.
+    pub opinions: Vec<Step>,
+}
+
+/// The plan of one named algorithm.
+pub(super) fn named(algorithm: &'static Algorithm, meta: &Meta) -> Plan {
     let n = meta.variables() as u64;
     let evaluations = algorithm.evaluations_per_variable.map_or(100_000 + 100 * n, |each| each * (n + 1));
     let restarts = if algorithm.gradients && algorithm.evaluations_per_variable.is_none() { 3 } else { 0 };
-    vec![Step { algorithm, from: From::Start, unit: Unit::Magnitude, restarts, evaluations }]
+    let steps = vec![Step { algorithm, from: From::Start, unit: Unit::Magnitude, restarts, evaluations }];
+    Plan { steps, opinions: Vec::new() }
 }
 
-/// The steps of `auto`. An algorithm that cannot take the problem, or would be slow on it, is left out.
-pub(super) fn automatic(meta: &Meta) -> Vec<Step> {
+/// The plan of `auto`. An algorithm that cannot take the problem, or would be slow on it, is left out.
+pub(super) fn automatic(meta: &Meta) -> Plan {
     let wanted = if meta.rows() == 0 { BOUNDS } else { ROWS };
     let quick = |name: &str| find(name).is_some_and(|algorithm| algorithm.is_quick(meta));
     let mut steps: Vec<Step> = wanted.iter().filter(|line| quick(line.0)).filter_map(|line| step(line, meta)).collect();
     if steps.is_empty() {
         steps = LAST.iter().filter_map(|line| step(line, meta)).collect();
     }
-    steps
+    let is_linear = meta.objective_is_linear && meta.row_is_linear.iter().all(|&linear| linear);
+    let is_small = meta.variables() <= SMALL && meta.rows() <= SMALL && !is_linear;
+    let capped = |step: Step| Step { evaluations: step.evaluations.min(OPINION), ..step };
+    let opinions = OPINIONS.iter().filter(|_| is_small).filter_map(|line| step(line, meta)).map(capped).collect();
+    Plan { steps, opinions }
 }
 
 type Line = (&'static str, From, Unit, u32);
+
+/// Variables and rows up to which second opinions cost next to nothing.
+const SMALL: usize = 50;
+
+/// Other ways from the same start, which may lead to another minimum.
+const OPINIONS: &[Line] = &[
+    ("slsqp", From::Start, Unit::One, 0),
+    ("slsqp", From::NearStart(0.5), Unit::Magnitude, 0),
+    ("mma", From::Start, Unit::Magnitude, 0),
+    ("auglag", From::Start, Unit::Magnitude, 0),
+];
+
+/// Evaluations of one second opinion at the most.
+const OPINION: u64 = 300;
 
 /// For bounds only.
 const BOUNDS: &[Line] = &[

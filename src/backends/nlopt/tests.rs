@@ -157,7 +157,8 @@ fn fixed_variables_stay_where_they_are() {
     let fixed = Handmade::new(Rosenbrock, &[(0.5, 0.5, 0.5), (-2.0, 1.0, 2.0)], &[]);
     assert_optimum(&fixed, &solve_with(&fixed, "auto"), 0.25, 1e-12);
     let all = Handmade::new(Rosenbrock, &[(0.5, 0.5, 0.5), (1.0, 1.0, 1.0)], &[]);
-    assert_eq!(solve_with(&all, "auto").x, [0.5, 1.0]);
+    let solution = solve_with(&all, "slsqp");
+    assert_eq!((solution.termination, solution.x), (Termination::Converged, vec![0.5, 1.0]));
 }
 
 #[test]
@@ -166,7 +167,7 @@ fn the_stop_test_ends_the_run() {
     let (solution, _) = solve(&rosenbrock(), &Options { stop_test: Some(&near), ..PLAIN });
     assert_eq!(solution.termination, Termination::Converged);
     assert!(near(&solution.x));
-    assert!(solution.message.contains("the stop test passed"), "{}", solution.message);
+    assert!(solution.message.contains("stop test passed"), "{}", solution.message);
 }
 
 #[test]

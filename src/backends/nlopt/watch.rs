@@ -9,6 +9,8 @@ pub(super) struct Candidate {
     pub x: Vec<f64>,
     /// f(x)
     pub objective: f64,
+    /// f(x) in units of its scale.
+    pub scaled_objective: f64,
     /// Largest scaled violation of a row.
     pub violation: f64,
     /// Largest violation of a row in its own units.
@@ -26,6 +28,10 @@ impl Candidate {
     }
 }
 
+/// An objective this far below zero, in units of its own scale, at a feasible point: it falls without end.
+const UNBOUNDED: f64 = -1e20;
+/// Violations count as none up to this share of the tolerance: f is cheaper where rows are cheated.
+const ACCEPTED: f64 = 1e-3;
 /// Evaluations that may follow a certified point, so that the answer is better than just accepted.
 const AFTERGLOW: u64 = 40;
 /// The longest wait between two stop tests, in evaluations.
@@ -40,14 +46,26 @@ pub(super) struct Watch<'w, 'j> {
     iterations: u64,
     gap: u64,
     next_test: u64,
-    proved_at: u64,
+    /// Where an attempt that has proved a point ends.
+    glow_ends: u64,
+    is_unbounded: bool,
 }
 
 impl<'w, 'j> Watch<'w, 'j> {
     /// A watch that reports to the job's observer.
     pub fn new(job: &'w mut Job<'j>) -> Self {
-        let accepted = 0.1 * job.constraint_tolerance;
-        Watch { job, accepted, best: None, proved: None, iterations: 0, gap: 1, next_test: 0, proved_at: 0 }
+        let accepted = ACCEPTED * job.constraint_tolerance;
+        Watch {
+            job,
+            accepted,
+            best: None,
+            proved: None,
+            iterations: 0,
+            gap: 1,
+            next_test: 0,
+            glow_ends: u64::MAX,
+            is_unbounded: false,
+        }
     }
 
     /// The job.
@@ -75,6 +93,16 @@ impl<'w, 'j> Watch<'w, 'j> {
         self.best.as_ref().is_some_and(|best| best.violation > self.job.constraint_tolerance)
     }
 
+    /// Whether the objective fell without end.
+    pub fn is_unbounded(&self) -> bool {
+        self.is_unbounded
+    }
+
+    /// A new attempt begins: it is not ended by what an earlier one proved.
+    pub fn begin(&mut self) {
+        (self.gap, self.next_test, self.glow_ends) = (1, 0, u64::MAX);
+    }
+
     /// Judges the best point's violation anew: another attempt scales rows differently.
     pub fn measure(&mut self, violation: impl FnOnce(&[f64]) -> Option<f64>) {
         if let Some(best) = &mut self.best
@@ -84,19 +112,20 @@ impl<'w, 'j> Watch<'w, 'j> {
         }
     }
 
-    /// Takes note of a point. True where the run may end: the certificate passed a while ago, or iterations ran out.
+    /// Takes note of a point. True where the run may end: the certificate passed a while ago, iterations ran out, or the
+    /// objective falls without end.
     pub fn see(&mut self, candidate: Candidate, evaluations: u64) -> bool {
         let improves = self.best.as_ref().is_none_or(|best| candidate.is_better(best, self.accepted));
         if improves {
             let settled = self.best.as_ref().is_some_and(|best| is_small_change(best, &candidate));
             self.report(&candidate, evaluations);
             self.best = Some(candidate.clone());
+            self.is_unbounded = candidate.violation <= self.accepted && candidate.scaled_objective < UNBOUNDED;
             if evaluations >= self.next_test && settled {
                 self.test(candidate, evaluations);
             }
         }
-        let glow_ends = self.proved.is_some() && evaluations >= self.proved_at + AFTERGLOW;
-        glow_ends || self.iterations >= self.job.max_iterations
+        self.is_unbounded || evaluations >= self.glow_ends || self.iterations >= self.job.max_iterations
     }
 
     fn report(&mut self, candidate: &Candidate, evaluations: u64) {
@@ -129,9 +158,7 @@ impl<'w, 'j> Watch<'w, 'j> {
     }
 
     fn keep(&mut self, candidate: Candidate, evaluations: u64) {
-        if self.proved.is_none() {
-            self.proved_at = evaluations;
-        }
+        self.glow_ends = self.glow_ends.min(evaluations + AFTERGLOW);
         self.proved = Some(candidate);
     }
 
@@ -143,7 +170,6 @@ impl<'w, 'j> Watch<'w, 'j> {
                 self.keep(candidate, evaluations);
             }
         }
-        (self.gap, self.next_test) = (1, 0);
         self.proved.is_some()
     }
 }

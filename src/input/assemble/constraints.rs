@@ -124,7 +124,8 @@ impl Assembly<'_> {
             Cells::Labels { .. } => self.problem.label(collection, at as u32, index).map(str::to_owned),
             Cells::Numbers(numbers) => numbers.get(index as usize).filter(|value| !value.is_nan()).map(f64::to_string),
         };
-        let (mut numbers, mut groups): (HashMap<String, usize>, Vec<(Box<str>, Vec<u32>)>) = Default::default();
+        let mut numbers: HashMap<String, usize> = HashMap::new();
+        let mut groups: Vec<(Box<str>, Vec<u32>)> = Vec::new();
         let mut empty = Vec::new();
         for &index in &scope.members {
             let Some(label) = label(index) else {

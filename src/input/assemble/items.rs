@@ -147,8 +147,8 @@ impl Assembly<'_> {
 
     /// The form that asks for exactly the given dimensions; a mistake where there is none.
     fn form(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) -> Option<&'static Form> {
-        let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
-        let fits = |form: &&Form| form.dimensions.len() == given.len() && form.dimensions.iter().all(|d| has(&d));
+        let has = |dimension: &str| given.iter().any(|one| one.name == dimension);
+        let fits = |form: &&Form| form.dimensions.len() == given.len() && form.dimensions.iter().all(|d| has(d));
         if let Some(form) = kind.forms().iter().find(fits) {
             return Some(form);
         }
@@ -183,7 +183,7 @@ impl Assembly<'_> {
                 let nearest = nearest(kind, given);
                 let surplus = given.iter().rev().find(|one| nearest.is_some_and(|form| !form.dimensions.contains(&one.name)));
                 let what = surplus.map_or("a dimension".into(), |one| format!("`{}`", one.name));
-                let message = format!("section `{}` has {what} besides what gives it already, or in other words", name.text);
+                let message = format!("section `{}`: {what} does not go with the other dimensions given", name.text);
                 (surplus.map_or(name.place, |one| one.place), message)
             }
         };
@@ -267,7 +267,11 @@ impl Assembly<'_> {
         if found.is_none() {
             let near = self.problem.sections.names.iter().take(10_000).map(|name| &**name);
             let help = did_you_mean(name, near).unwrap_or_else(|| "declare it under [sections] or in the table".into());
-            self.findings.mistake(place, format!("there is no section `{name}`"), help);
+            let message = match self.names.find(&self.problem, name) {
+                Some(entity) => format!("`{name}` is a {}, not a section", entity.word()),
+                None => format!("there is no section `{name}`"),
+            };
+            self.findings.mistake(place, message, help);
         }
         found
     }

@@ -82,7 +82,7 @@ impl Assembly<'_> {
         }
         let (tree, own) = match node.checked_sub(first_link) {
             None => (trees.definitions[node].as_ref(), None),
-            Some(link) => (trees.texts[self.links[link].text as usize].as_ref(), Some(self.links[link].section)),
+            Some(link) => (trees.texts[self.links[link].text as usize].as_ref(), Some(self.links[link])),
         };
         let Some(tree) = tree else { return Vec::new() };
         let (mentions, folds) = mentions(tree);
@@ -96,14 +96,17 @@ impl Assembly<'_> {
         needs
     }
 
-    fn need(&self, parts: &[&str], own: Option<u32>, (first_link, all): (usize, usize), needs: &mut Vec<u32>) {
-        if let (Some(s), [name]) = (own, parts) {
-            let kind = sections_form(&self.problem, s as usize).and_then(|form| sections::kind(form.kind));
-            if kind.is_some_and(|kind| kind.properties().contains(name)) {
-                return self.need_property(s, name, first_link, needs);
+    fn need(&self, parts: &[&str], own: Option<Link>, (first_link, all): (usize, usize), needs: &mut Vec<u32>) {
+        let entity = |name: &str| self.names.find(&self.problem, name);
+        if let (Some(link), [name]) = (own, parts) {
+            let form = sections_form(&self.problem, link.section as usize);
+            let kind = form.and_then(|form| sections::kind(form.kind));
+            let other = form.is_some_and(|form| form.dimensions.contains(name)) && self.dimension_name(link) != Some(*name);
+            let global = !other && entity(name).is_some();
+            if !global && kind.is_some_and(|kind| kind.properties().contains(name)) {
+                return self.need_property(link.section, name, first_link, needs);
             }
         }
-        let entity = |name: &str| self.names.find(&self.problem, name);
         match parts {
             ["volume" | "volume_frustum" | "volume_prismatoid"] => needs.push(all as u32),
             [name] => {
@@ -136,14 +139,18 @@ impl Assembly<'_> {
         needs.extend(wanted.map(|(at, _)| (first_link + from + at) as u32));
     }
 
+    /// The dimension a link is for.
+    fn dimension_name(&self, link: Link) -> Option<&'static str> {
+        sections_form(&self.problem, link.section as usize)?.dimensions.get(link.position as usize).copied()
+    }
+
     fn say_circle(&mut self, circle: &[u32], definitions: &[(Name, Scalar)]) {
         let node = |node: u32| match definitions.get(node as usize) {
             Some((name, _)) => Some((name.text.clone(), name.place)),
             None => {
                 let link = self.links.get(node as usize - definitions.len())?;
                 let section = &self.problem.sections.names[link.section as usize];
-                let dimension = sections_form(&self.problem, link.section as usize)?.dimensions[link.position as usize];
-                Some((format!("{section}.{dimension}"), link.place))
+                Some((format!("{section}.{}", self.dimension_name(*link)?), link.place))
             }
         };
         let (names, places): (Vec<String>, Vec<Place>) = circle.iter().filter_map(|&at| node(at)).unzip();
@@ -160,6 +167,12 @@ impl Assembly<'_> {
             }
             (Scalar::Expression(_), None) => None,
         };
+        if let Some(value) = &value {
+            let user = format!("definition `{}`", name.text);
+            for formula in value.formulas() {
+                self.cells_filled(formula, None, &user);
+            }
+        }
         self.definitions[at] = value.map(|value| match value {
             Value::Scalar(formula) => Value::Scalar(self.defined(name.text.clone(), formula)),
             Value::Array(list) => {
@@ -181,12 +194,13 @@ impl Assembly<'_> {
 
     fn link(&mut self, link: Link, trees: &Trees, shared: &mut Shared) {
         let Some(tree) = &trees.texts[link.text as usize] else { return };
-        let scope = ItemScope::of(&self.problem, Collection::Sections, vec![link.section]);
+        let mut scope = ItemScope::of(&self.problem, Collection::Sections, vec![link.section]);
+        scope.itself = self.dimension_name(link);
         let written = Written { text: String::new(), place: link.place, inside: link.inside };
         let resolved = self.resolved(&written, Some(&scope), Stage::All, |resolver| resolver.scalar(tree));
         let dimension = match resolved {
-            None => Dimension::Constant(1.0),
-            Some(formula) => self.linked(link, formula, shared),
+            Some(formula) if self.cells_filled(&formula, Some(&scope), "a dimension") => self.linked(link, formula, shared),
+            _ => Dimension::Constant(1.0),
         };
         let first = self.problem.sections.first_dimension[link.section as usize] as usize;
         self.problem.sections.dimensions[first + link.position as usize] = dimension;

@@ -3,6 +3,7 @@
 mod constants;
 mod constraints;
 mod data;
+mod existence;
 mod items;
 mod links;
 mod overrides;
@@ -73,6 +74,7 @@ pub(super) fn assemble(
     assembly.links(&declared.definitions);
     assembly.objective(&declared);
     assembly.constraints(&declared.constraints);
+    assembly.check_existence();
     assembly.say_unused();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
     assembly.problem.units = std::mem::take(&mut declared.units);
@@ -187,7 +189,8 @@ impl<'a> Assembly<'a> {
     /// The objective; the volume where there are ribs and nothing is said.
     fn objective(&mut self, declared: &Declaration) {
         let (sense, written) = match &declared.objective {
-            Some((sense, written)) => (*sense, written.clone()),
+            Some((sense, Some(written))) => (*sense, written.clone()),
+            Some((_, None)) => return,
             None if self.problem.ribs.names.is_empty() => {
                 if declared.ribs.is_empty() && declared.rib_table.is_none() {
                     let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised";
@@ -198,7 +201,9 @@ impl<'a> Assembly<'a> {
             None => (Sense::Minimize, Written { text: "volume".into(), place: Place::Whole, inside: None }),
         };
         self.problem.sense = sense;
-        self.problem.objective = self.scalar(&written, None).unwrap_or_default();
+        let formula = self.scalar(&written, None).unwrap_or_default();
+        self.cells_filled(&formula, None, "the objective");
+        self.problem.objective = formula;
         self.problem.objective_text = written.text;
     }
 }

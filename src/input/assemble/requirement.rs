@@ -32,7 +32,8 @@ impl Assembly<'_> {
             formulas.push(formula.filter(|_| grouped));
         }
         let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
-        if !formulas.iter().all(|formula| self.cells_filled(formula, items, name)) {
+        let user = format!("constraint `{name}`");
+        if !formulas.iter().all(|formula| self.cells_filled(formula, items, &user)) {
             return None;
         }
         let constant: Vec<bool> = formulas.iter().map(|formula| constant(&self.problem, formula, scope)).collect();
@@ -121,12 +122,12 @@ impl Assembly<'_> {
     }
 
     /// Every data cell the formula uses is filled.
-    fn cells_filled(&mut self, formula: &Formula, items: Option<&ItemScope>, name: &str) -> bool {
+    pub(super) fn cells_filled(&mut self, formula: &Formula, items: Option<&ItemScope>, user: &str) -> bool {
         let mut filled = true;
         for Use { collection, column, empty } in uses(&self.problem, formula, items) {
             if let Some(&first) = empty.first() {
                 let label = self.problem.columns(collection)[column as usize].name.clone();
-                self.empty_cell(collection, first, &label, empty.len(), &format!("constraint `{name}`"));
+                self.empty_cell(collection, first, &label, empty.len(), user);
                 filled = false;
             }
         }

@@ -25,6 +25,8 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
             reader.findings.mistake(written.place, format!("{what} chooses among items, but has no `for`"), help);
         }
     }
+    // With a wrong `for` nothing is known of the names that hold.
+    let require = require.filter(|_| !scoped || repeated.is_some());
     ConstraintEntry { name, place, repeated, only, kind, filter, by, require }
 }
 

@@ -1,10 +1,12 @@
 //! From a checked problem to a model: every sum falls into small elements, every element shares its kernel with its like.
 
+mod classify;
 mod facts;
 mod groups;
 mod lower;
 mod plan;
 mod sum;
+mod survey;
 mod template;
 mod walk;
 
@@ -15,7 +17,8 @@ use thiserror::Error;
 use super::assembled::{Affine, RibModel, RowOrigin};
 use super::{Meta, Pattern};
 use crate::expression::tape::TapeError;
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Sense};
+use crate::problem::{Formula, Limit, Problem, Scope, Sense};
+pub use classify::{Classification, classify};
 use facts::Facts;
 use groups::{Groups, Kernels};
 use lower::{Context, Item};
@@ -36,9 +39,21 @@ use walk::Walk;
 /// # Errors
 /// Where one term couples so many variables that its second derivatives do not fit.
 pub fn assemble(problem: &Arc<Problem>) -> Result<RibModel, AssemblyError> {
+    assemble_with(problem, problem.constraints.iter().map(|constraint| (&constraint.left, &constraint.right)))
+}
+
+/// The same with the rows restated: one left side and limit per constraint, in order.
+fn assemble_rows(problem: &Arc<Problem>, rows: &[(Formula, Limit)]) -> Result<RibModel, AssemblyError> {
+    assemble_with(problem, rows.iter().map(|(left, right)| (left, right)))
+}
+
+fn assemble_with<'a>(
+    problem: &'a Arc<Problem>,
+    sides: impl Iterator<Item = (&'a Formula, &'a Limit)>,
+) -> Result<RibModel, AssemblyError> {
     let (facts, mut kernels) = (Facts::of(problem), Kernels::default());
     let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
-    let rows = Rows::of(problem, &facts, &mut kernels)?;
+    let rows = Rows::of(problem, sides, &facts, &mut kernels)?;
     Ok(connect(problem, objective, objective_groups.into_list(), rows))
 }
 
@@ -86,16 +101,20 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<Rows, AssemblyError> {
+    fn of<'a>(
+        problem: &Problem,
+        sides: impl Iterator<Item = (&'a Formula, &'a Limit)>,
+        facts: &Facts,
+        kernels: &mut Kernels,
+    ) -> Result<Rows, AssemblyError> {
         let mut rows = Rows::default();
-        for (index, constraint) in problem.constraints.iter().enumerate() {
+        for ((index, constraint), sides) in problem.constraints.iter().enumerate().zip(sides) {
             let (mut walk, mut templates) = (Walk::new(problem, facts), Templates::default());
             for item in 0..constraint.scope.rows() {
                 let origin = RowOrigin { constraint: index as u32, item: item as u32 };
-                rows.add(constraint, origin, &mut walk, kernels, &mut templates).map_err(|cause| AssemblyError {
-                    place: format!("{} (constraint {})", constraint.place, constraint.name),
-                    cause,
-                })?;
+                rows.add(sides, context(&constraint.scope, item), origin, &mut walk, kernels, &mut templates).map_err(
+                    |cause| AssemblyError { place: format!("{} (constraint {})", constraint.place, constraint.name), cause },
+                )?;
             }
         }
         Ok(rows)
@@ -103,22 +122,22 @@ impl Rows {
 
     fn add(
         &mut self,
-        constraint: &Constraint,
+        (left, right): (&Formula, &Limit),
+        context: Context,
         origin: RowOrigin,
         walk: &mut Walk,
         kernels: &mut Kernels,
         templates: &mut Templates,
     ) -> Result<(), TapeError> {
-        let context = context(&constraint.scope, origin.item as usize);
         let row = Some(self.affine.len() as u32);
         let (problem, groups) = (walk.problem, &mut self.groups);
         let mut summation = Summation { problem, kernels, templates, groups, affine: Affine::default(), row, elements: 0 };
-        walk.visit(&constraint.left, 1.0, context, &mut summation)?;
+        walk.visit(left, 1.0, context, &mut summation)?;
         let Summation { mut affine, elements, .. } = summation;
         affine.merge();
         self.affine.push(affine);
         self.nonlinear.push(elements > 0);
-        let (lower, upper) = limits(&constraint.right, |formula| walk.constant(formula, context));
+        let (lower, upper) = limits(right, |formula| walk.constant(formula, context));
         self.lower.push(lower);
         self.upper.push(upper);
         self.origin.push(origin);

@@ -219,6 +219,14 @@ impl<'a, 'r> Resolver<'a, 'r> {
 }
 
 impl Value {
+    /// The formula, or the elements' formulas.
+    pub fn formulas(&self) -> &[Formula] {
+        match self {
+            Value::Scalar(formula) => std::slice::from_ref(formula),
+            Value::Array(list) => list,
+        }
+    }
+
     fn into_list(self) -> Vec<Formula> {
         match self {
             Value::Scalar(formula) => vec![formula],

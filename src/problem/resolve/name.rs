@@ -33,6 +33,12 @@ impl<'a> Resolver<'a, '_> {
     /// A name of the item itself; `Some(None)` after a mistake, `None` where it has no such name.
     fn own(&mut self, parts: &[&str], span: Span) -> Option<Option<Formula>> {
         let scope = self.scope?;
+        if let [name] = parts
+            && scope.yields(name)
+            && self.world.names.find(self.world.problem, name).is_some()
+        {
+            return None;
+        }
         let found = match (scope.collection, parts) {
             (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
             (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),

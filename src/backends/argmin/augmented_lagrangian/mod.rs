@@ -18,7 +18,7 @@ use argmin::core::{Error, KV, Problem, Solver};
 use self::subproblem::minimise;
 use super::state::{Conclusion, NlpState, Point};
 use crate::backends::{Job, StopTest, Termination};
-use crate::model::augmented::Augmented;
+use crate::model::augmented::{Augmented, MOST_PRODUCTS, needed_products};
 use crate::model::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
@@ -26,8 +26,8 @@ use crate::model::{EvaluationError, Evaluator, Meta, Model};
 const ENOUGH_PROGRESS: f64 = 0.25;
 /// Growth of the penalty.
 const GROWTH: f64 = 10.0;
-/// The first penalty, for the scaled model.
-const FIRST_PENALTY: f64 = 10.0;
+/// The first penalty of each try, for the scaled model: a larger one follows rows before the objective.
+const FIRST_PENALTIES: [f64; 4] = [1e1, 1e3, 1e5, 1e-1];
 /// The largest penalty: beyond it φ is rounding.
 const LARGEST_PENALTY: f64 = 1e8;
 /// Multipliers of the scaled model are kept within this.
@@ -36,37 +36,44 @@ const LARGEST_MULTIPLIER: f64 = 1e10;
 const TIGHTEST: f64 = 1e-11;
 /// Iterations without a better residual after which rounding has ended the progress.
 const PATIENCE: u32 = 12;
+/// A residual is better where it is below this share of the best one.
+const WORTHWHILE: f64 = 0.8;
 /// Iterations after the stop test passed, so that the answer is better than just accepted.
 const AFTERGLOW: u32 = 2;
-
-/// The start, moved to where the model has values, and the units the subproblems are solved in.
-///
-/// # Errors
-/// Those of the model at the start.
-pub(super) fn start(evaluator: &Evaluator<'_>, start: &[f64]) -> Result<(Vec<f64>, Scales), EvaluationError> {
-    valid_start(evaluator, start, |x| x.iter().zip(start).map(|(x, start)| x.abs().max(start.abs())).collect())
-}
+/// Scales that are off by more than this factor are renewed.
+const STALE: f64 = 30.0;
+/// Renewals of scales at the most.
+const RENEWALS: u32 = 10;
+/// Residual below which a try is not repeated.
+const SOLVED: f64 = 1e-6;
 
 /// Why the rows cannot be taken; `None` where they can.
 pub(super) fn refusal(meta: &Meta) -> Option<String> {
-    let products = Augmented::products(meta);
-    (products > Augmented::MOST_PRODUCTS)
+    let products = needed_products(meta);
+    (products > MOST_PRODUCTS)
         .then(|| format!("augmented-lagrangian multiplies rows out, which takes {products} entries here; use interior-point"))
 }
 
-/// The solver. Its values are those of the scaled model.
+/// The solver. x, multipliers and residuals are those of the scaled model.
 pub(super) struct AugmentedLagrangian<'a> {
-    scaled: &'a Scaled<'a>,
-    subproblem: Augmented<'a>,
+    evaluator: &'a Evaluator<'a>,
+    subproblem: Augmented<Scaled<'a>>,
     stop_test: Option<StopTest<'a>>,
+    start: Vec<f64>,
     x: Vec<f64>,
     multipliers: Vec<f64>,
     penalty: f64,
     tolerance: f64,
     infeasibility: f64,
     best: Option<Best>,
-    /// Iterations since the best residual.
+    tries: usize,
+    renewals: u32,
+    /// σ at the start.
+    objective_scale: f64,
+    escaped: bool,
+    /// Iterations since the best residual of this try.
     idle: u32,
+    idle_best: f64,
     /// Iterations since the stop test passed.
     passed: Option<u32>,
 }
@@ -77,37 +84,58 @@ struct Best {
     point: Point,
 }
 
+/// The units of the subproblems at x.
+fn units<'x>(start: &'x [f64]) -> impl Fn(&[f64]) -> Vec<f64> + 'x {
+    move |x| x.iter().zip(start).map(|(x, start)| x.abs().max(start.abs())).collect()
+}
+
 impl<'a> AugmentedLagrangian<'a> {
-    /// From `x` (inside the bounds, in the model's own units), as the job says; `None` where [`refusal`] speaks.
-    pub fn new<'j: 'a>(scaled: &'a Scaled<'a>, x: &[f64], job: &Job<'j>) -> Option<Self> {
+    /// From the job's start, moved to where the model has values. The rows must be such that [`refusal`] is silent.
+    ///
+    /// # Errors
+    /// The model has no value near the start.
+    pub fn new<'j: 'a>(evaluator: &'a Evaluator<'a>, job: &Job<'j>) -> Result<Self, EvaluationError> {
+        let (x, scales) = valid_start(evaluator, job.start, units(job.start))?;
+        let subproblem = subproblem(evaluator, scales)?;
+        let scaled = subproblem.model();
         let rows = scaled.meta().rows();
         let known = job.start_multipliers.filter(|known| known.len() == rows);
-        Some(AugmentedLagrangian {
-            subproblem: Augmented::new(scaled)?,
+        Ok(AugmentedLagrangian {
             stop_test: job.stop_test,
-            x: scaled.scaled_point(x),
+            start: x.clone(),
+            x: scaled.scaled_point(&x),
             multipliers: known.map_or(vec![0.0; rows], |known| scaled.scaled_multipliers(known)),
-            penalty: FIRST_PENALTY,
+            penalty: FIRST_PENALTIES[0],
             tolerance: 1e-1,
             infeasibility: f64::INFINITY,
             best: None,
+            tries: 1,
+            renewals: 0,
+            objective_scale: scaled.scales().objective,
+            escaped: false,
             idle: 0,
+            idle_best: f64::INFINITY,
             passed: None,
-            scaled,
+            subproblem,
+            evaluator,
         })
     }
 
+    fn scaled(&self) -> &Scaled<'a> {
+        self.subproblem.model()
+    }
+
     fn rows(&self) -> Result<Vec<f64>, EvaluationError> {
-        let mut rows = vec![0.0; self.scaled.meta().rows()];
+        let mut rows = vec![0.0; self.scaled().meta().rows()];
         if !rows.is_empty() {
-            self.scaled.constraints(&self.x, &mut rows)?;
+            self.scaled().constraints(&self.x, &mut rows)?;
         }
         Ok(rows)
     }
 
     /// The current point as the user knows it.
     fn point(&self, optimality: f64) -> Result<Point, EvaluationError> {
-        let (meta, scales) = (self.scaled.meta(), self.scaled.scales());
+        let (meta, scales) = (self.scaled().meta(), self.scaled().scales());
         let (mut relative_violation, mut feasibility) = (0.0_f64, 0.0_f64);
         for (i, row) in self.rows()?.into_iter().enumerate() {
             let violation = (meta.row_lower[i] - row).max(row - meta.row_upper[i]).max(0.0);
@@ -115,21 +143,36 @@ impl<'a> AugmentedLagrangian<'a> {
             feasibility = feasibility.max(violation * scales.rows[i]);
         }
         Ok(Point {
-            x: self.scaled.unscaled_point(&self.x),
-            objective: self.scaled.objective(&self.x)? * scales.objective,
+            x: self.scaled().unscaled_point(&self.x),
+            objective: self.scaled().objective(&self.x)? * scales.objective,
             relative_violation,
             feasibility,
             optimality,
-            multipliers: Some(self.scaled.unscaled_multipliers(&self.multipliers)),
+            multipliers: Some(self.scaled().unscaled_multipliers(&self.multipliers)),
         })
     }
 
     /// One subproblem, then multipliers, penalty and tolerance for the next. Returns the new point and the step's length.
     fn iterate(&mut self) -> Result<(Point, f64), EvaluationError> {
-        let before = self.scaled.unscaled_point(&self.x);
+        let before = self.scaled().unscaled_point(&self.x);
         self.subproblem.set(&self.multipliers, self.penalty);
         let minimum = minimise(&self.subproblem, &self.x, self.tolerance)?;
+        let penalty_helps = !self.multipliers.is_empty() && self.penalty < LARGEST_PENALTY;
+        self.escaped = minimum.escaped && !penalty_helps;
+        if minimum.escaped && penalty_helps {
+            self.penalty = (GROWTH * self.penalty).min(LARGEST_PENALTY);
+            return Ok((self.point(minimum.stationarity)?, 0.0));
+        }
         self.x = minimum.x;
+        self.update()?;
+        let point = self.point(minimum.stationarity)?;
+        self.remember(&point, self.infeasibility.max(minimum.stationarity));
+        self.renew(&point.x)?;
+        let step = point.x.iter().zip(&before).map(|(new, old)| (new - old) * (new - old)).sum::<f64>().sqrt();
+        Ok((point, step))
+    }
+
+    fn update(&mut self) -> Result<(), EvaluationError> {
         let estimate = self.subproblem.next_multipliers(&self.rows()?);
         // c − s: violation where a row is active, and how far an inactive one's multiplier is from zero.
         let distance = estimate.iter().zip(&self.multipliers).map(|(new, old)| ((new - old) / self.penalty).abs());
@@ -140,36 +183,93 @@ impl<'a> AugmentedLagrangian<'a> {
         }
         self.infeasibility = infeasibility;
         self.tolerance = (0.1 * self.tolerance).min(infeasibility).max(TIGHTEST);
-        let point = self.point(minimum.stationarity)?;
-        self.remember(&point, infeasibility.max(minimum.stationarity));
-        let step = point.x.iter().zip(&before).map(|(new, old)| (new - old) * (new - old)).sum::<f64>().sqrt();
-        Ok((point, step))
+        Ok(())
     }
 
     fn remember(&mut self, point: &Point, residual: f64) {
         self.idle += 1;
         self.passed = self.passed.map(|iterations| iterations + 1);
+        if residual < WORTHWHILE * self.idle_best {
+            (self.idle, self.idle_best) = (0, residual);
+        }
         if self.best.as_ref().is_none_or(|best| residual < best.residual) {
             self.best = Some(Best { residual, point: point.clone() });
-            self.idle = 0;
         }
         if self.passed.is_none() && residual < 1e-4 && self.stop_test.is_some_and(|test| test(&point.x)) {
             self.passed = Some(0);
         }
     }
 
-    /// How the run ends, if it does.
-    fn conclusion(&self) -> Option<Conclusion> {
+    /// New units where those in use have become far too large or small.
+    fn renew(&mut self, x: &[f64]) -> Result<(), EvaluationError> {
+        if self.renewals >= RENEWALS || self.passed.is_some() {
+            return Ok(());
+        }
+        let scales = match Scales::at(self.evaluator, x, units(&self.start)(x)) {
+            // The gradient may vanish at the solution: the start's scale stays the least.
+            Ok(scales) => Scales { objective: scales.objective.max(self.objective_scale), ..scales },
+            Err(error @ EvaluationError::Stopped(_)) => return Err(error),
+            Err(_) => return Ok(()),
+        };
+        if !is_stale(self.scaled().scales(), &scales) {
+            return Ok(());
+        }
+        self.renewals += 1;
+        let multipliers = self.scaled().unscaled_multipliers(&self.multipliers);
+        self.subproblem = subproblem(self.evaluator, scales)?;
+        self.x = self.scaled().scaled_point(x);
+        self.multipliers = self.scaled().scaled_multipliers(&multipliers);
+        self.begin(self.penalty);
+        self.best = None;
+        Ok(())
+    }
+
+    /// Forgets what the last subproblems came to.
+    fn begin(&mut self, penalty: f64) {
+        (self.penalty, self.tolerance, self.infeasibility) = (penalty, 1e-1, f64::INFINITY);
+        (self.idle, self.idle_best) = (0, f64::INFINITY);
+    }
+
+    /// How the run ends, if it does; a try that came to nothing is repeated from the start with another first penalty.
+    fn conclusion(&mut self) -> Option<Conclusion> {
         let best = self.best.as_ref()?;
+        if self.escaped && best.point.relative_violation <= SOLVED {
+            return Some(concluded("the objective falls without end".into()));
+        }
         let is_done = best.residual <= TIGHTEST || self.passed.is_some_and(|iterations| iterations >= AFTERGLOW);
-        let message = match (is_done, self.idle > PATIENCE, best.point.relative_violation > 1e-6) {
+        let is_idle = self.idle > PATIENCE;
+        let is_infeasible = best.point.relative_violation > SOLVED;
+        if !is_done && is_idle && best.residual > SOLVED && self.tries < FIRST_PENALTIES.len() {
+            let penalty = FIRST_PENALTIES[self.tries];
+            self.tries += 1;
+            self.x = self.scaled().scaled_point(&self.start);
+            self.multipliers.fill(0.0);
+            self.begin(penalty);
+            return None;
+        }
+        let message = match (is_done, is_idle, is_infeasible) {
             (true, _, _) => format!("residual {:.1e}", best.residual),
             (_, true, false) => format!("no further progress: residual {:.1e}", best.residual),
             (_, true, true) => format!("the violation {:.3e} falls no further from here", best.point.feasibility),
             _ => return None,
         };
-        Some(Conclusion { termination: Termination::Converged, message, invalid: None })
+        Some(concluded(message))
     }
+}
+
+fn concluded(message: String) -> Conclusion {
+    Conclusion { termination: Termination::Converged, message, invalid: None }
+}
+
+fn subproblem<'a>(evaluator: &'a Evaluator<'a>, scales: Scales) -> Result<Augmented<Scaled<'a>>, EvaluationError> {
+    Augmented::new(Scaled::new(evaluator, scales))
+        .ok_or_else(|| EvaluationError::Invalid { term: "rows".into(), cause: "too dense to multiply out".into() })
+}
+
+fn is_stale(old: &Scales, new: &Scales) -> bool {
+    let off = |old: f64, new: f64| old / new > STALE || new / old > STALE;
+    let rows = old.rows.iter().zip(&new.rows).any(|(&old, &new)| off(old, new));
+    rows || off(old.objective, new.objective) || old.variables.iter().zip(&new.variables).any(|(&old, &new)| off(old, new))
 }
 
 impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for AugmentedLagrangian<'a> {

@@ -9,9 +9,11 @@ use super::steihaug::Steihaug;
 use crate::model::{EvaluationError, Model};
 
 /// Faces visited at the most.
-const FACES: u32 = 200;
+const FACES: u32 = 60;
 /// Iterations on one face at the most.
-const ITERATIONS: u64 = 200;
+const ITERATIONS: u64 = 100;
+/// Growth of the point at which the model falls without end.
+const ESCAPE: f64 = 1e6;
 /// Rejected steps in a row after which rounding has ended the progress: each divides the radius by four.
 const REJECTIONS: u32 = 25;
 
@@ -25,6 +27,8 @@ pub(super) struct Minimum {
     pub x: Vec<f64>,
     /// ‖projected gradient‖∞ there.
     pub stationarity: f64,
+    /// The model falls without end: the point ran away.
+    pub escaped: bool,
 }
 
 /// Minimises `model` from `x` until the projected gradient is below `tolerance` or rounding ends the progress.
@@ -34,10 +38,10 @@ pub(super) struct Minimum {
 pub(super) fn minimise(model: &dyn Model, x: &[f64], tolerance: f64) -> Result<Minimum, EvaluationError> {
     let mut gradient = vec![0.0; x.len()];
     let mut value = model.gradient(x, &mut gradient)?;
-    let mut minimum = Minimum { stationarity: stationarity(model, x, &gradient), x: x.to_vec() };
-    let mut idle = 0;
+    let mut minimum = Minimum { stationarity: stationarity(model, x, &gradient), x: x.to_vec(), escaped: false };
+    let (mut idle, far) = (0, ESCAPE * length(x));
     for _ in 0..FACES {
-        if minimum.stationarity <= tolerance || idle > 2 {
+        if minimum.stationarity <= tolerance || minimum.escaped || idle > 2 {
             break;
         }
         let face = Face::through(model, &minimum.x, &gradient);
@@ -51,7 +55,7 @@ pub(super) fn minimise(model: &dyn Model, x: &[f64], tolerance: f64) -> Result<M
             idle + 1
         };
         value = next_value;
-        minimum = Minimum { stationarity: stationarity(model, &next, &gradient), x: next };
+        minimum = Minimum { stationarity: stationarity(model, &next, &gradient), escaped: length(&next) > far, x: next };
     }
     Ok(minimum)
 }
@@ -59,16 +63,21 @@ pub(super) fn minimise(model: &dyn Model, x: &[f64], tolerance: f64) -> Result<M
 /// argmin's trust region on one face; returns the free variables where it ended.
 fn explore(face: &Face<'_>, tolerance: f64) -> Result<Vec<f64>, EvaluationError> {
     let origin = face.origin();
-    let length = origin.iter().map(|w| w * w).sum::<f64>().sqrt().max(1.0);
+    let length = length(&origin);
     let inner = TrustRegion::new(Steihaug::new())
         .with_radius(0.5 * length)
         .and_then(|region| region.with_max_radius(1e3 * length))
         .and_then(|region| region.with_eta(1e-4));
-    let solver = Guarded { inner: inner.map_err(foreign)?, face: face.clone(), tolerance, rejections: 0 };
+    let solver = Guarded { inner: inner.map_err(foreign)?, face: face.clone(), tolerance, far: ESCAPE * length, rejections: 0 };
     let executor = Executor::new(face.clone(), solver).ctrlc(false).timer(false);
     let run = executor.configure(|state| state.param(origin.clone()).max_iters(ITERATIONS)).run();
     let result = run.map_err(foreign)?;
     Ok(result.state.get_param().cloned().unwrap_or(origin))
+}
+
+/// ‖x‖₂, or 1 where that is less.
+fn length(x: &[f64]) -> f64 {
+    x.iter().map(|value| value * value).sum::<f64>().sqrt().max(1.0)
 }
 
 /// An evaluation error that went through argmin, or argmin's own words.
@@ -83,6 +92,7 @@ struct Guarded<'a> {
     inner: Inner,
     face: Face<'a>,
     tolerance: f64,
+    far: f64,
     rejections: u32,
 }
 
@@ -106,7 +116,7 @@ impl<'a> Solver<Face<'a>, FaceState> for Guarded<'a> {
     fn terminate(&mut self, state: &FaceState) -> TerminationStatus {
         let gradient =
             state.get_gradient().map_or(0.0, |gradient| gradient.iter().fold(0.0_f64, |largest, g| largest.max(g.abs())));
-        let is_left = state.get_param().is_some_and(|w| self.face.is_left(w));
+        let is_left = state.get_param().is_some_and(|w| self.face.is_left(w) || length(w) > self.far);
         if gradient <= self.tolerance || is_left || self.rejections > REJECTIONS {
             return TerminationStatus::Terminated(TerminationReason::SolverConverged);
         }

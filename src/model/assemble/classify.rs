@@ -1,0 +1,189 @@
+//! Linear, geometric program, convex or nonlinear: the first that the structure proves.
+
+use std::sync::Arc;
+
+use super::facts::Facts;
+use super::lower::Context;
+use super::survey::{Bend, Survey};
+use super::walk::Walk;
+use super::{AssemblyError, context};
+use crate::expression::structure::Wanted;
+use crate::model::logarithmic::Logarithmic;
+use crate::model::{Class, Model, RibModel};
+use crate::problem::{Constraint, Formula, Limit, Problem, Sense};
+
+/// What is proved about a problem.
+pub struct Classification {
+    /// The class.
+    pub class: Class,
+    /// For geometric programs: the same problem in the logarithms of its variables.
+    pub logarithmic: Option<Logarithmic>,
+    /// Which term keeps it from being a geometric program.
+    pub not_geometric: Option<String>,
+    /// Which term keeps it from being convex.
+    pub not_convex: Option<String>,
+}
+
+/// Classifies the problem `model` was assembled from. Definitions and section properties are seen through.
+///
+/// # Errors
+/// As [`super::assemble`], for the rows restated as ratios.
+pub fn classify(model: &RibModel) -> Result<Classification, AssemblyError> {
+    let problem = model.problem();
+    let facts = Facts::of(problem);
+    let judge = Judge { problem, facts: &facts };
+    let not_convex = judge.not_convex()?;
+    let meta = model.meta();
+    let linear = meta.objective_is_linear && meta.row_is_linear.iter().all(|linear| *linear);
+    if linear {
+        return Ok(Classification { class: Class::Linear, logarithmic: None, not_geometric: None, not_convex: None });
+    }
+    let (not_geometric, logarithmic) = match judge.geometric()? {
+        Ok(geometric) => (None, geometric.logarithmic(problem)?),
+        Err(reason) => (Some(reason), None),
+    };
+    let class = match (&not_geometric, &not_convex) {
+        (None, _) => Class::GeometricProgram,
+        (_, None) => Class::Convex,
+        _ => Class::Nonlinear,
+    };
+    Ok(Classification { class, logarithmic, not_geometric, not_convex })
+}
+
+struct Judge<'a> {
+    problem: &'a Arc<Problem>,
+    facts: &'a Facts,
+}
+
+/// A geometric program's rows as ratios.
+struct Geometric {
+    rows: Vec<(Formula, Limit)>,
+    monomial: Vec<bool>,
+    /// The objective is minimised as it stands, not the inverse of one that is maximised.
+    direct: bool,
+}
+
+impl Judge<'_> {
+    /// What every row of a constraint (with this left side) is.
+    fn rows(&self, constraint: &Constraint, left: &Formula) -> Result<Survey<'_>, AssemblyError> {
+        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), Survey::new(self.problem));
+        for item in 0..constraint.scope.rows() {
+            survey.add(left, &mut walk, context(&constraint.scope, item)).map_err(|cause| AssemblyError {
+                place: format!("{} (constraint {})", constraint.place, constraint.name),
+                cause,
+            })?;
+        }
+        Ok(survey)
+    }
+
+    fn objective(&self, formula: &Formula) -> Result<Survey<'_>, AssemblyError> {
+        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), Survey::new(self.problem));
+        let surveyed = survey.add(formula, &mut walk, Context::GLOBAL);
+        surveyed.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;
+        Ok(survey)
+    }
+
+    /// Why the problem is not convex; `None` where it is.
+    fn not_convex(&self) -> Result<Option<String>, AssemblyError> {
+        let survey = self.objective(&self.problem.objective)?;
+        let wanted = match self.problem.sense {
+            Sense::Minimize => Wanted::Convex,
+            Sense::Maximize => Wanted::Concave,
+        };
+        if !holds(wanted, survey.bend()) {
+            return Ok(Some(words("the objective", &survey, wanted)));
+        }
+        for constraint in &self.problem.constraints {
+            let survey = self.rows(constraint, &constraint.left)?;
+            let wanted: &[Wanted] = match constraint.right {
+                Limit::AtMost(_) => &[Wanted::Convex],
+                Limit::AtLeast(_) => &[Wanted::Concave],
+                Limit::Equal(_) | Limit::Between(..) => &[Wanted::Convex, Wanted::Concave],
+            };
+            if let Some(&missing) = wanted.iter().find(|&&wanted| !holds(wanted, survey.bend())) {
+                return Ok(Some(words(&format!("constraint {}", constraint.name), &survey, missing)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The rows as ratios, or why the problem is no geometric program.
+    fn geometric(&self) -> Result<Result<Geometric, String>, AssemblyError> {
+        if let Some(j) = self.problem.variables.lower.iter().position(|&lower| lower < 0.0) {
+            return Ok(Err(format!("{} may be negative", self.problem.variable_name(j))));
+        }
+        let (objective, wanted, direct) = match (self.problem.sense, &self.problem.objective) {
+            (Sense::Minimize, Formula::Unary(crate::expression::operators::Unary::Negate, inner)) => {
+                (&**inner, Wanted::LogConcave, false)
+            }
+            (Sense::Minimize, objective) => (objective, Wanted::LogConvex, true),
+            (Sense::Maximize, objective) => (objective, Wanted::LogConcave, false),
+        };
+        let survey = self.objective(objective)?;
+        if !holds(wanted, survey.bend()) {
+            return Ok(Err(words("the objective", &survey, wanted)));
+        }
+        let mut geometric = Geometric { rows: Vec::new(), monomial: Vec::new(), direct };
+        for constraint in &self.problem.constraints {
+            match self.geometric_row(constraint)? {
+                Ok((row, monomial)) => {
+                    geometric.rows.push(row);
+                    geometric.monomial.extend(std::iter::repeat_n(monomial, constraint.scope.rows()));
+                }
+                Err(reason) => return Ok(Err(reason)),
+            }
+        }
+        Ok(Ok(geometric))
+    }
+
+    fn geometric_row(&self, constraint: &Constraint) -> Result<Result<((Formula, Limit), bool), String>, AssemblyError> {
+        let name = format!("constraint {}", constraint.name);
+        let Some((ratio, limit)) = self.problem.ratio(&constraint.left, &constraint.right) else {
+            return Ok(Err(format!("{name}: it holds a sum of positive terms below zero")));
+        };
+        let survey = self.rows(constraint, &ratio)?;
+        let bend = survey.bend();
+        let two_sided = matches!(limit, Limit::Equal(_) | Limit::Between(..));
+        if !bend.log_curvature.is_convex() {
+            return Ok(Err(words(&name, &survey, Wanted::LogConvex)));
+        }
+        if two_sided && !bend.log_curvature.is_affine() {
+            return Ok(Err(format!("{name}: a row with two limits must be a monomial")));
+        }
+        let monomial = bend.log_curvature == crate::expression::structure::Curvature::Affine;
+        Ok(Ok(((ratio, limit), monomial)))
+    }
+}
+
+impl Geometric {
+    /// The problem in log variables; `None` where it is not solved that way.
+    fn logarithmic(self, problem: &Arc<Problem>) -> Result<Option<Logarithmic>, AssemblyError> {
+        if !self.direct {
+            return Ok(None);
+        }
+        let ratios = super::assemble_rows(problem, &self.rows)?;
+        Ok(Logarithmic::new(Arc::new(ratios), self.monomial))
+    }
+}
+
+fn holds(wanted: Wanted, bend: Bend) -> bool {
+    match wanted {
+        Wanted::Convex => bend.curvature.is_convex(),
+        Wanted::Concave => bend.curvature.is_concave(),
+        Wanted::LogConvex => bend.log_curvature.is_convex(),
+        Wanted::LogConcave => bend.log_curvature.is_concave(),
+    }
+}
+
+fn words(place: &str, survey: &Survey, wanted: Wanted) -> String {
+    let property = match wanted {
+        Wanted::Convex => "convex",
+        Wanted::Concave => "concave",
+        Wanted::LogConvex => "a posynomial (log-log convex)",
+        Wanted::LogConcave => "a monomial (log-log concave)",
+    };
+    match survey.blame(wanted) {
+        Some(term) => format!("{place}: no rule shows that {term} is {property}"),
+        None => format!("{place}: the sum of its terms is not shown to be {property}"),
+    }
+}

@@ -1,0 +1,126 @@
+//! Formulas that are affine in the variables: constant + Σ coefficient·x_j.
+
+use super::evaluate::{Evaluation, Item};
+use super::formula::End;
+use super::{Dimension, Formula, Problem, Variables};
+use crate::expression::graph::{Graph, Node, NodeId};
+use crate::expression::operators::{Binary, Fold, Unary};
+use crate::sections::{self, Given};
+
+/// constant + Σ coefficient·x_j, terms by ascending j, none twice.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Affine {
+    /// The value at x = 0.
+    pub constant: f64,
+    /// Variables and coefficients.
+    pub terms: Vec<(u32, f64)>,
+}
+
+impl Affine {
+    fn constant(constant: f64) -> Affine {
+        Affine { constant, terms: Vec::new() }
+    }
+
+    /// The formula in the scope of `item`, if it is written affinely (no cancelling of curved terms is looked for).
+    pub fn of(problem: &Problem, formula: &Formula, item: Item) -> Option<Affine> {
+        let part = |formula| Affine::of(problem, formula, item);
+        match formula {
+            Formula::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(*j, 1.0)] }),
+            Formula::Definition(d) => Affine::of(problem, &problem.definitions.get(*d as usize)?.1, Item::None),
+            Formula::SectionProperty(s, property) => Affine::of_property(problem, *s, &property.0),
+            Formula::OwnProperty(property) => match item {
+                Item::Section(s) => Affine::of_property(problem, s, &property.0),
+                _ => None,
+            },
+            Formula::EndProperty(end, property) => {
+                let Item::Rib(r) = item else { return None };
+                let ends = if *end == End::From { &problem.ribs.from } else { &problem.ribs.to };
+                Affine::of_property(problem, *ends.get(r as usize)?, &property.0)
+            }
+            Formula::Unary(Unary::Negate, operand) => Some(part(operand)?.scaled(-1.0)),
+            Formula::Binary(op, left, right) => join(*op, part(left)?, part(right)?),
+            Formula::Fold(Fold::Sum, list) => {
+                list.iter().try_fold(Affine::default(), |sum, formula| Some(sum.plus(&part(formula)?, 1.0)))
+            }
+            other => Evaluation::constants(problem).value(other, item).map(Affine::constant),
+        }
+    }
+
+    /// A dimension or property of section `s`.
+    pub fn of_property(problem: &Problem, s: u32, name: &str) -> Option<Affine> {
+        let number = *problem.sections.form.get(s as usize)?;
+        let (form, dimensions) = (sections::form(number), problem.dimensions(s as usize));
+        let of_dimension = |dimension: &Dimension| match *dimension {
+            Dimension::Constant(value) => Some(Affine::constant(value)),
+            Dimension::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(j, 1.0)] }),
+            Dimension::Formula(f) => Affine::of(problem, problem.dimension_formulas.get(f as usize)?, Item::Section(s)),
+        };
+        if let Some(at) = form.dimensions.iter().position(|given| *given == name) {
+            return of_dimension(dimensions.get(at)?);
+        }
+        let mut graph = Graph::new();
+        let inputs: Vec<NodeId> = (0..dimensions.len() as u32).map(|at| graph.input(at)).collect();
+        let given = Given { form, dimensions: &inputs, outline: &[] };
+        let node = sections::kind_of(number).property(&mut graph, &given, name)?;
+        let values: Vec<Affine> = dimensions.iter().map(of_dimension).collect::<Option<_>>()?;
+        of_node(&graph, node, &values)
+    }
+
+    /// `self + factor·other`
+    pub fn plus(mut self, other: &Affine, factor: f64) -> Affine {
+        self.constant += factor * other.constant;
+        for &(j, coefficient) in &other.terms {
+            match self.terms.binary_search_by_key(&j, |term| term.0) {
+                Ok(at) => self.terms[at].1 += factor * coefficient,
+                Err(at) => self.terms.insert(at, (j, factor * coefficient)),
+            }
+        }
+        self
+    }
+
+    fn scaled(mut self, factor: f64) -> Affine {
+        self.constant *= factor;
+        self.terms.iter_mut().for_each(|term| term.1 *= factor);
+        self
+    }
+
+    /// The smallest and largest value inside the variables' bounds.
+    pub fn range(&self, variables: &Variables) -> (f64, f64) {
+        let mut range = (self.constant, self.constant);
+        for &(j, coefficient) in self.terms.iter().filter(|term| term.1 != 0.0) {
+            let (lower, upper) = (coefficient * variables.lower[j as usize], coefficient * variables.upper[j as usize]);
+            range = (range.0 + lower.min(upper), range.1 + lower.max(upper));
+        }
+        range
+    }
+
+    /// The coefficient of x_j.
+    pub fn coefficient(&self, j: u32) -> f64 {
+        self.terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1)
+    }
+}
+
+fn join(op: Binary, left: Affine, right: Affine) -> Option<Affine> {
+    match op {
+        Binary::Add => Some(left.plus(&right, 1.0)),
+        Binary::Subtract => Some(left.plus(&right, -1.0)),
+        Binary::Multiply if right.terms.is_empty() => Some(left.scaled(right.constant)),
+        Binary::Multiply if left.terms.is_empty() => Some(right.scaled(left.constant)),
+        Binary::Divide if right.terms.is_empty() => Some(left.scaled(1.0 / right.constant)),
+        op if left.terms.is_empty() && right.terms.is_empty() => {
+            Some(Affine::constant(op.evaluate(left.constant, right.constant)))
+        }
+        _ => None,
+    }
+}
+
+/// The few nodes of a property, each affine in the inputs.
+fn of_node(graph: &Graph, node: NodeId, inputs: &[Affine]) -> Option<Affine> {
+    match graph.node(node) {
+        Node::Constant(value) => Some(Affine::constant(value)),
+        Node::Input(slot) => inputs.get(slot as usize).cloned(),
+        Node::Unary(Unary::Negate, operand) => Some(of_node(graph, operand, inputs)?.scaled(-1.0)),
+        Node::Binary(op, left, right) => join(op, of_node(graph, left, inputs)?, of_node(graph, right, inputs)?),
+        Node::Data(_) | Node::Unary(..) => None,
+    }
+}
