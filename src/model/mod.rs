@@ -11,6 +11,7 @@ pub mod class;
 pub mod components;
 pub mod derivative_check;
 pub mod differences;
+pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;

@@ -168,7 +168,9 @@ fn governing(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     if certificate.is_some_and(|certificate| certificate.multipliers_not_unique) {
         writeln!(out, "  The active limits are dependent: these multipliers are one choice of many.")?;
     }
-    if certificate.is_some_and(|certificate| certificate.minimiser_may_not_be_unique) {
+    if findings.outcome.minimiser_is_not_unique {
+        writeln!(out, "  The minimiser is not unique: the backends hold different points of equal value.")?;
+    } else if certificate.is_some_and(|certificate| certificate.minimiser_may_not_be_unique) {
         writeln!(out, "  The minimiser may not be unique: the objective is flat in some direction.")?;
     }
     Ok(())

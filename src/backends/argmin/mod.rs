@@ -4,6 +4,7 @@
 mod augmented_lagrangian;
 mod components;
 mod interior_point;
+mod opinions;
 mod state;
 #[cfg(test)]
 pub(crate) mod test_models;
@@ -64,7 +65,9 @@ impl Backend for Argmin {
             }
             _ => {
                 let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
-                (INTERIOR_POINT, run(solver, &evaluator, job))
+                let found = run(solver, &evaluator, job);
+                let is_auto = job.algorithm == "auto";
+                (INTERIOR_POINT, if is_auto { opinions::better(&evaluator, job, found) } else { found })
             }
         };
         solution(algorithm, finished, &evaluator, began)

@@ -43,6 +43,7 @@ use attempts::Attempts;
 use begin::Beginning;
 use engine::{Ending, Engine};
 use form::Source;
+pub(super) use start::towards_middle;
 
 /// A primal-dual interior point with a filter line search.
 pub(super) struct InteriorPoint<'a> {
