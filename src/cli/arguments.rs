@@ -6,16 +6,23 @@ use clap::{Args, Parser, Subcommand};
 
 /// Sizes structural ribs: the lightest rectangular ribs and H beams that still meet their limits, with a proof.
 #[derive(Debug, Parser)]
-#[command(name = "ribopt", version, max_term_width = 110, after_help = EXIT_CODES)]
+#[command(name = "ribopt", version, max_term_width = 110, after_help = BEGINNING)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
 }
 
+const BEGINNING: &str = "To begin: ribopt new > rib.toml && ribopt solve rib.toml";
+
 const EXIT_CODES: &str = "\
-Exit codes of solve: 0 certified, 1 an answer that is not certified, 2 the command line or the problem file is wrong, 3 infeasible,
-4 unbounded or not attained, 5 a limit was reached or the run was interrupted, 6 the model gave a value that is no number.
-Begin with: ribopt new > rib.toml; ribopt solve rib.toml";
+Exit codes:
+  0  the best answer is certified and no backend holds a better feasible point
+  1  an answer, but not certified
+  2  the command line or the problem file is wrong
+  3  infeasible
+  4  unbounded or not attained
+  5  a limit was reached or the run was interrupted
+  6  the model gave a value that is no number";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -82,13 +89,13 @@ pub struct Changes {
 #[derive(Debug, Args, Default)]
 pub struct Limits {
     /// Largest accepted dual infeasibility and complementarity (fmincon's TolFun)
-    #[arg(long, value_name = "T", value_parser = tolerance)]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub optimality_tolerance: Option<f64>,
     /// Relative step below which a run has stopped moving (TolX)
-    #[arg(long, value_name = "T", value_parser = tolerance)]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub step_tolerance: Option<f64>,
     /// Largest accepted relative violation of rows and bounds (TolCon)
-    #[arg(long, value_name = "T", value_parser = tolerance)]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub constraint_tolerance: Option<f64>,
     /// Iterations per backend
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
@@ -97,7 +104,7 @@ pub struct Limits {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub max_evaluations: Option<u64>,
     /// Seconds for the whole command, all backends together
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub max_seconds: Option<f64>,
 }
 

@@ -11,7 +11,7 @@ use ribopt::run::{Subject, choice};
 pub fn run(arguments: &Bounds) -> Result<u8, Failure> {
     let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
     arguments.limits.apply(&mut subject.settings);
-    output::warn(&subject.about.warnings);
+    output::tell(&subject.warnings);
     let choices = choice::choose(&[], None, &subject.settings)?;
     let test = bounds(&subject, &choices, Some(interrupt::flag()));
     let (about, rows) = (&subject.about, subject.model().meta().rows());

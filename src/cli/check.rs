@@ -13,7 +13,7 @@ use ribopt::run::{Subject, check::check};
 /// Reads, validates, compares derivatives; exit code 1 where one disagrees or there is no value.
 pub fn run(arguments: &Check) -> Result<u8, Failure> {
     let subject = Subject::read(&arguments.file, &arguments.changes.set)?;
-    output::warn(&subject.about.warnings);
+    output::tell(&subject.warnings);
     let result = check(&subject);
     output::print(|out| {
         sizes(&subject, out)?;

@@ -8,7 +8,7 @@ use super::arguments::Compare;
 use super::failure::Failure;
 use super::{interrupt, output};
 use ribopt::report::comparison::{self, Trial};
-use ribopt::report::{svg, whole_file};
+use ribopt::report::{result::write_value, svg, whole_file};
 use ribopt::run::{Subject, compare::compare};
 
 /// Compares all solvers on all files. All files are read first: a mistake in one is told before anything is run.
@@ -22,7 +22,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
     let interrupt = interrupt::flag();
     let mut trials = Vec::new();
     for subject in &subjects {
-        output::warn(&subject.about.warnings);
+        output::tell(&subject.warnings);
         let of_file = compare(subject, Some(interrupt));
         if !arguments.json {
             let (about, class) = (&subject.about, subject.class);
@@ -31,7 +31,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
         trials.extend(of_file);
     }
     if arguments.json {
-        output::print(|out| comparison::write_json(&trials, out))?;
+        output::print(|out| write_value(&trials, out))?;
     }
     if let Some(folder) = &arguments.profile {
         leave_profiles(&trials, folder).map_err(|error| {

@@ -51,10 +51,15 @@ impl Failure {
                     if matches!(error, RunError::Input(..)) { "the problem file is wrong".into() } else { error.to_string() };
                 (message, error.mistakes())
             }
-            other => {
-                let message = other.to_string().trim_end().to_string();
-                (message.clone(), vec![Mistake::of_command(message)])
+            Failure::Arguments(error) => {
+                // The headline says what is wrong; what follows it is how to use the command.
+                let text = error.render().to_string();
+                let (headline, usage) = text.split_once("\n\n").unwrap_or((&text, ""));
+                let message = headline.trim_start_matches("error: ").trim_end().to_string();
+                let help = (!usage.is_empty()).then(|| usage.trim().to_string());
+                (message.clone(), vec![Mistake { help, ..Mistake::of_command(message) }])
             }
+            other => (other.to_string(), vec![Mistake::of_command(other.to_string())]),
         }
     }
 }

@@ -25,10 +25,16 @@ pub fn note(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
-/// Warnings on standard error.
+/// Warnings of the reader, already rendered, on standard error.
+pub fn tell(rendered: &[String]) {
+    for warning in rendered {
+        note(warning.trim_end());
+    }
+}
+
+/// Further warnings, one line each.
 pub fn warn(warnings: &[String]) {
     for warning in warnings {
-        let labelled = warning.starts_with("warning");
-        note(&if labelled { warning.trim_end().to_string() } else { format!("warning: {warning}") });
+        note(&format!("warning: {warning}"));
     }
 }

@@ -2,15 +2,18 @@
 
 use super::failure::Failure;
 use super::output;
+use ribopt::input;
+use ribopt::report::result::write_value;
 
 /// Prints a commented example.
 pub fn example(kind: Option<&str>) -> Result<u8, Failure> {
-    let _ = kind;
-    Err(Failure::Request("not yet".into()))
+    let text = input::example(kind).map_err(Failure::Request)?;
+    output::print(|out| out.write_all(text.as_bytes()))?;
+    Ok(0)
 }
 
 /// Prints the JSON Schema of problem files.
 pub fn schema() -> Result<u8, Failure> {
-    output::print(|_| Ok(()))?;
+    output::print(|out| write_value(&input::schema(), out))?;
     Ok(0)
 }

@@ -1,5 +1,7 @@
 //! `ribopt solve`
 
+use std::time::Instant;
+
 use super::arguments::Solve;
 use super::failure::Failure;
 use super::{interrupt, live_table, output};
@@ -9,15 +11,19 @@ use ribopt::run::{Subject, Watcher, choice};
 
 /// Solves, shows what was found and returns the exit code.
 pub fn run(arguments: &Solve) -> Result<u8, Failure> {
+    let (begun, interrupt) = (Instant::now(), interrupt::flag());
     let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
     arguments.limits.apply(&mut subject.settings);
-    output::warn(&subject.about.warnings);
+    // The limit is on the whole command, reading included.
+    let settings = &mut subject.settings;
+    settings.max_seconds = (settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
+    output::tell(&subject.warnings);
     let request = Request {
         choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
         out: arguments.out.as_deref(),
         start: arguments.start.as_deref(),
         starts: arguments.starts as usize,
-        interrupt: Some(interrupt::flag()),
+        interrupt: Some(interrupt),
     };
     let mut table = live_table::on_terminal(arguments.quiet);
     let watcher: &mut dyn Watcher = match &mut table {

@@ -11,7 +11,7 @@ use ribopt::run::{Subject, verify::verify};
 pub fn run(arguments: &Verify) -> Result<u8, Failure> {
     let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
     arguments.limits.apply(&mut subject.settings);
-    output::warn(&subject.about.warnings);
+    output::tell(&subject.warnings);
     let outcome = verify(&subject, &arguments.answer)?;
     let volumes = subject.volumes(&outcome.x);
     let (about, model, class) = (&subject.about, subject.model(), subject.class);

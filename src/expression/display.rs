@@ -58,7 +58,8 @@ impl Printer<'_> {
 }
 
 fn unary_name(op: Unary) -> &'static str {
-    Unary::NAMED.iter().find(|(_, known)| *known == op).map_or("-", |(name, _)| name)
+    let unnamed = if op == Unary::LnGamma { "lgamma" } else { "-" };
+    Unary::NAMED.iter().find(|(_, known)| *known == op).map_or(unnamed, |(name, _)| name)
 }
 
 fn binary_name(op: Binary) -> &'static str {

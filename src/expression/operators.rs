@@ -1,5 +1,7 @@
 //! The operators and functions of the language, and how wide their calls are.
 
+use crate::math::special;
+
 /// A function or prefix operator of one argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
@@ -19,6 +21,8 @@ pub enum Unary {
     Cosh,
     Tanh,
     Abs,
+    /// ln Γ, for superellipses; not among the functions users write.
+    LnGamma,
 }
 
 /// An operator or function of two arguments.
@@ -96,6 +100,7 @@ impl Unary {
             Unary::Cosh => x.cosh(),
             Unary::Tanh => x.tanh(),
             Unary::Abs => x.abs(),
+            Unary::LnGamma => special::ln_gamma(x),
         }
     }
 }

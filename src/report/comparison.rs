@@ -91,15 +91,6 @@ pub fn write_csv(trials: &[Trial], out: impl Write) -> io::Result<()> {
     table.flush()
 }
 
-/// Writes all trials as a JSON list.
-///
-/// # Errors
-/// Whatever the writer says.
-pub fn write_json(trials: &[Trial], out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, trials)?;
-    out.write_all(b"\n")
-}
-
 /// Profiles by evaluations and by time, over the solvers that ran at least once, in the order met.
 pub fn profiles(trials: &[Trial]) -> [Profile; 2] {
     let mut solvers: Vec<String> = Vec::new();

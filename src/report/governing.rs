@@ -27,14 +27,14 @@ pub struct Group {
     pub side: Side,
     /// How many.
     pub count: usize,
-    /// What one per cent of all of them changes, first order.
+    /// What one per cent of all of them changes, first order; 0 for limits of 0.
     pub per_cent: f64,
 }
 
 /// The active limits.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Governing {
-    /// The costliest ones, costliest first.
+    /// The costliest ones, costliest first; after them those held against 0, of which there is no per cent.
     pub costliest: Vec<Limit>,
     /// How many have a multiplier in all.
     pub with_cost: usize,
@@ -56,7 +56,8 @@ impl Governing {
         let all = active.len();
         active.retain(|entry| entry.held.multiplier != 0.0);
         let (with_cost, without_cost) = (active.len(), all - active.len());
-        active.sort_by(|a, b| b.cost().total_cmp(&a.cost()));
+        // In single precision: costs that differ by rounding only keep the order of the file.
+        active.sort_by(|a, b| (a.limit == 0.0).cmp(&(b.limit == 0.0)).then((b.cost() as f32).total_cmp(&(a.cost() as f32))));
         let groups = if with_cost > most { groups(findings, &active) } else { Vec::new() };
         let costliest = active.iter().take(most).map(|entry| entry.limit(findings)).collect();
         Governing { costliest, with_cost, without_cost, groups }

@@ -74,7 +74,7 @@ fn objective_unit(findings: &Findings<'_>) -> String {
 fn backends(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let outcome = findings.outcome;
     if outcome.answers.is_empty() {
-        return Ok(());
+        return measures(findings, out);
     }
     let header =
         ["backend", "algorithm", "point", "objective", "iterations", "evaluations", "seconds", "primal", "dual", "compl."];
@@ -93,6 +93,18 @@ fn backends(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         let word = if agreement.agree { "agree" } else { "do not agree" };
         let (f, x) = (short(agreement.objective_difference), short(agreement.variable_difference));
         writeln!(out, "  the backends {word}: objectives differ by {f}, variables by up to {x} (relative)")?;
+    }
+    Ok(())
+}
+
+/// The certificate of a point that no backend found.
+fn measures(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Some(certificate) = &findings.outcome.certificate else { return Ok(()) };
+    let measures = [certificate.primal_infeasibility, certificate.dual_infeasibility, certificate.complementarity];
+    let [primal, dual, complementarity] = measures.map(|value| significant(value, 3));
+    writeln!(out, "primal infeasibility {primal}, dual infeasibility {dual}, complementarity {complementarity}")?;
+    for message in &certificate.messages {
+        writeln!(out, "  {message}")?;
     }
     Ok(())
 }
@@ -134,10 +146,10 @@ fn point(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn governing(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let governing = Governing::of(findings, MOST_LINES);
     if findings.outcome.status != Status::Certified {
         return Ok(());
     }
+    let governing = Governing::of(findings, MOST_LINES);
     if governing.with_cost == 0 {
         return writeln!(out, "\nNothing governs: no row or bound holds the optimum.");
     }
@@ -179,8 +191,8 @@ fn limit_row(limit: &Limit, objective: f64) -> Vec<String> {
 }
 
 fn group_row(group: &Group, objective: f64) -> Vec<String> {
-    let change = significant(group.per_cent, 5);
-    let share = share_text(group.per_cent / objective);
+    let change = if group.per_cent == 0.0 { f64::NAN } else { group.per_cent };
+    let (change, share) = (significant(change, 5), share_text(change / objective));
     vec![group.name.clone(), group.side.as_str().into(), group.count.to_string(), change, share]
 }
 

@@ -20,6 +20,8 @@ pub struct Subject {
     pub class: Class,
     /// Tolerances and limits: the file's, unless the command line changed them.
     pub settings: Settings,
+    /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
+    pub warnings: Vec<String>,
     problem: Arc<Problem>,
     model: Arc<RibModel>,
     /// Which terms keep it from being a geometric program and from being convex.
@@ -35,9 +37,13 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let input = input::read_with(file, changes)
-            .map_err(|mistakes| RunError::Input(mistakes.to_string(), mistakes.list.iter().map(reported).collect()))?;
-        Subject::assemble(input.problem.without_kinks(), file, input.sha256)
+        let input = input::read_with(file, changes).map_err(|mistakes| {
+            let list = mistakes.list.iter().map(reported).collect();
+            RunError::Input(mistakes.to_string(), list)
+        })?;
+        let mut subject = Subject::assemble(input.problem.without_kinks(), file, input.sha256)?;
+        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
+        Ok(subject)
     }
 
     /// Assembles a checked declaration that was read from `file`.
@@ -66,7 +72,17 @@ impl Subject {
             Some(logarithmic) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             None => differences(&problem, &model),
         };
-        Ok(Subject { class, settings: problem.settings.clone(), about, problem, model, not_geometric, not_convex, substitution })
+        Ok(Subject {
+            class,
+            settings: problem.settings.clone(),
+            warnings: Vec::new(),
+            about,
+            problem,
+            model,
+            not_geometric,
+            not_convex,
+            substitution,
+        })
     }
 
     /// The problem in the user's variables, minimised.

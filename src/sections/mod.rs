@@ -3,8 +3,17 @@
 //! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]; nothing else changes.
 //! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
 
+mod box_beam;
+mod build;
+mod circle;
 mod h_beam;
+mod outline;
+mod polygon;
+mod polyline;
 mod rectangle;
+mod superellipse;
+mod tee;
+mod tube;
 
 use crate::expression::graph::{Graph, NodeId};
 
@@ -84,13 +93,71 @@ pub trait Kind: Sync {
         &[]
     }
 
+    /// Is a rib's frustum volume a posynomial of the dimensions given in this form (for `superellipse`: with one fixed r)?
+    fn posynomial_volume(&self, _form: &Form) -> bool {
+        false
+    }
+
+    /// Is it drawn by points ([`Given::outline`])?
+    fn has_outline(&self) -> bool {
+        false
+    }
+
+    /// What is wrong with these points, whatever the dimensions.
+    fn outline_defect(&self, _form: &Form, _outline: &[[f64; 2]]) -> Option<String> {
+        None
+    }
+
+    /// What is wrong with the section at numeric dimensions, in the form's order: one that is not positive, an outline that meets itself.
+    fn defect(&self, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
+        not_positive(self.name(), form, given, outline)
+    }
+
     /// The boundary at numeric dimensions: the outer ring counter-clockwise, holes clockwise; curves to `tolerance`.
     /// `given` are numbers in the form's order.
     fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>>;
 }
 
 /// All kinds.
-pub static KINDS: &[&dyn Kind] = &[&rectangle::Rectangle, &h_beam::HBeam];
+pub static KINDS: &[&dyn Kind] = &[
+    &rectangle::Rectangle,
+    &h_beam::HBeam,
+    &superellipse::Superellipse,
+    &tee::Tee,
+    &box_beam::BoxBeam,
+    &circle::Circle,
+    &tube::Tube,
+    &polygon::Polygon,
+    &polyline::Polyline,
+];
+
+/// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.
+///
+/// ```
+/// use ribopt::sections::{evaluate, kind};
+/// let tube = kind("tube").unwrap();
+/// let area = evaluate(tube, &tube.forms()[0], &[0.2, 0.01], &[], "A").unwrap();
+/// assert!((area - std::f64::consts::PI * 0.01 * 0.19).abs() < 1e-17);
+/// ```
+pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[[f64; 2]], name: &str) -> Option<f64> {
+    let form = kind.forms().iter().find(|known| *known == form)?;
+    if given.len() != form.dimensions.len() {
+        return None;
+    }
+    let mut graph = Graph::new();
+    let dimensions: Vec<NodeId> = given.iter().map(|value| graph.constant(*value)).collect();
+    let node = kind.property(&mut graph, &Given { form, dimensions: &dimensions, outline }, name)?;
+    graph.as_constant(node)
+}
+
+/// The first dimension, given or named by [`Kind::positive`], that is not positive and finite.
+fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
+    let kind = kind(name)?;
+    let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
+    let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);
+    let (name, value) = all.find(|(_, value)| !(*value > 0.0 && value.is_finite()))?;
+    Some(format!("{name} is {value}; it must be positive"))
+}
 
 /// Every form of every kind, in the order [`form`] counts them.
 pub fn forms() -> impl Iterator<Item = (&'static dyn Kind, &'static Form)> {
@@ -123,3 +190,6 @@ pub fn form_number(form: &Form) -> Option<u16> {
 fn lookup(number: u16) -> (&'static dyn Kind, &'static Form) {
     forms().nth(number.into()).expect("form numbers come from form_number")
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,9 @@
 //! `rectangle`: width b, height h.
 
+use super::build::monomial;
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
+use crate::expression::operators::Unary;
 
 /// The rectangle b × h.
 pub struct Rectangle;
@@ -18,19 +20,22 @@ impl Kind for Rectangle {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["b", "h", "A", "Ix", "Iy", "Wx", "Wy", "width", "height"]
+        &["b", "h", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
         let (b, h) = (given.dimensions[0], given.dimensions[1]);
+        let mut product = |factor, b_power, h_power| monomial(graph, factor, &[(b, b_power), (h, h_power)]);
         Some(match name {
             "b" | "width" => b,
             "h" | "height" => h,
-            "A" => graph.multiply(b, h),
-            "Ix" => monomial(graph, b, h, 3.0, 12.0),
-            "Iy" => monomial(graph, h, b, 3.0, 12.0),
-            "Wx" => monomial(graph, b, h, 2.0, 6.0),
-            "Wy" => monomial(graph, h, b, 2.0, 6.0),
+            "A" => product(1.0, 1.0, 1.0),
+            "Ix" => product(1.0 / 12.0, 1.0, 3.0),
+            "Iy" => product(1.0 / 12.0, 3.0, 1.0),
+            "Wx" => product(1.0 / 6.0, 1.0, 2.0),
+            "Wy" => product(1.0 / 6.0, 2.0, 1.0),
+            "Asx" | "Asy" => product(5.0 / 6.0, 1.0, 1.0),
+            "J" => torsion(graph, b, h),
             _ => return None,
         })
     }
@@ -44,15 +49,30 @@ impl Kind for Rectangle {
         WHOLE
     }
 
+    fn posynomial_volume(&self, _: &Form) -> bool {
+        true
+    }
+
     fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
         let (x, y) = (given[0] / 2.0, given[1] / 2.0);
         vec![vec![[-x, -y], [x, -y], [x, y], [-x, y]]]
     }
 }
 
-/// `a · bⁿ / divisor`
-fn monomial(graph: &mut Graph, a: NodeId, b: NodeId, exponent: f64, divisor: f64) -> NodeId {
-    let power = graph.power(b, exponent);
-    let product = graph.multiply(a, power);
-    graph.scale(1.0 / divisor, product)
+/// Saint-Venant's series J = h·b³/3·(1 − 192b/(π⁵h)·Σ tanh(nπh/2b)/n⁵), n = 1, 3, …, 9 (Timoshenko and Goodier, *Theory of Elasticity*, §109).
+/// It needs no choice of the longer side, so that it has no kink; relative error below 1e−5 for h ≥ b, 3e−4 at b = 3h, 1 % at b = 10h.
+fn torsion(graph: &mut Graph, b: NodeId, h: NodeId) -> NodeId {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    let slender = graph.divide(h, b);
+    let terms = [1.0, 3.0, 5.0, 7.0, 9.0f64].map(|n| {
+        let angle = graph.scale(n * FRAC_PI_2, slender);
+        let tanh = graph.unary(Unary::Tanh, angle);
+        graph.scale(192.0 / (PI * n).powi(5), tanh)
+    });
+    let series = graph.sum(&terms);
+    let lost = graph.divide(series, slender);
+    let one = graph.constant(1.0);
+    let share = graph.subtract(one, lost);
+    let narrow = monomial(graph, 1.0 / 3.0, &[(b, 3.0), (h, 1.0)]);
+    graph.multiply(narrow, share)
 }

@@ -191,6 +191,9 @@ fn unary_shape(op: Unary, range: Interval) -> Shape {
         }
         Unary::Sin if range.lower >= 0.0 && range.upper <= PI => Shape::of(Concave, Slope::Mixed),
         Unary::Cos if range.lower >= -FRAC_PI_2 && range.upper <= FRAC_PI_2 => Shape::of(Concave, Slope::Mixed),
+        // It falls as far as 1.4616… and rises from there.
+        Unary::LnGamma if range.lower >= 1.47 => rising(Convex),
+        Unary::LnGamma => Shape::of(Convex, Slope::Mixed),
         Unary::Sin | Unary::Cos | Unary::Tan => NO_SHAPE,
     }
 }

@@ -167,6 +167,8 @@ impl Interval {
             Unary::Sinh => self.increasing(f64::sinh).keep_sign(self),
             Unary::Cosh => Interval { lower: 1.0, ..self.magnitude().increasing(f64::cosh) },
             Unary::Tanh => self.increasing(f64::tanh).keep_sign(self),
+            // Its minimum is −0.1215.
+            Unary::LnGamma => Interval { lower: -0.122, upper: f64::INFINITY },
         }
     }
 

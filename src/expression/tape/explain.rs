@@ -69,7 +69,7 @@ fn no_derivative(operation: Operation, at: At, order: &str) -> String {
 /// What went wrong in an operation on finite operands.
 fn cause(operation: Operation, left: f64, right: f64) -> String {
     match operation {
-        Operation::Unary(op @ (Unary::Sqrt | Unary::Log | Unary::Log10 | Unary::Asin | Unary::Acos)) => {
+        Operation::Unary(op @ (Unary::Sqrt | Unary::Log | Unary::Log10 | Unary::Asin | Unary::Acos | Unary::LnGamma)) => {
             format!("{} of {left}", name(Operation::Unary(op)))
         }
         Operation::Binary(Binary::Divide) if right == 0.0 => "division by zero".into(),
@@ -94,6 +94,7 @@ fn name(operation: Operation) -> &'static str {
             Unary::Sin | Unary::Cos | Unary::Tan => "trigonometric function",
             Unary::Sinh | Unary::Cosh | Unary::Tanh => "hyperbolic function",
             Unary::Atan => "arc tangent",
+            Unary::LnGamma => "logarithm of gamma",
         },
         Operation::Binary(Binary::Divide) => "quotient",
         Operation::Binary(Binary::Atan2) => "angle atan2",

@@ -2,6 +2,7 @@
 
 use super::program::Operation;
 use crate::expression::operators::{Binary, Unary};
+use crate::math::special;
 
 /// An operation at a point: operands and value, and whether the right operand depends on the inputs.
 #[derive(Clone, Copy)]
@@ -80,6 +81,7 @@ fn unary_first(op: Unary, a: f64, v: f64) -> f64 {
         Unary::Tanh => a.cosh().powi(-2),
         Unary::Abs if a < 0.0 => -1.0,
         Unary::Abs => 1.0,
+        Unary::LnGamma => special::digamma(a),
     }
 }
 
@@ -99,6 +101,7 @@ fn unary_second(op: Unary, a: f64, v: f64) -> f64 {
             -2.0 * a * slope * slope
         }
         Unary::Tanh => -2.0 * v * a.cosh().powi(-2),
+        Unary::LnGamma => special::polygamma(1, a),
     }
 }
 

@@ -99,8 +99,10 @@ impl Assembly<'_> {
     fn need(&self, parts: &[&str], own: Option<Link>, (first_link, all): (usize, usize), needs: &mut Vec<u32>) {
         let entity = |name: &str| self.names.find(&self.problem, name);
         if let (Some(link), [name]) = (own, parts) {
-            let kind = sections_form(&self.problem, link.section as usize).and_then(|form| sections::kind(form.kind));
-            let global = self.dimension_name(link) == Some(*name) && entity(name).is_some();
+            let form = sections_form(&self.problem, link.section as usize);
+            let kind = form.and_then(|form| sections::kind(form.kind));
+            let other = form.is_some_and(|form| form.dimensions.contains(name)) && self.dimension_name(link) != Some(*name);
+            let global = !other && entity(name).is_some();
             if !global && kind.is_some_and(|kind| kind.properties().contains(name)) {
                 return self.need_property(link.section, name, first_link, needs);
             }

@@ -34,7 +34,7 @@ impl<'a> Resolver<'a, '_> {
     fn own(&mut self, parts: &[&str], span: Span) -> Option<Option<Formula>> {
         let scope = self.scope?;
         if let [name] = parts
-            && scope.itself == Some(*name)
+            && scope.yields(name)
             && self.world.names.find(self.world.problem, name).is_some()
         {
             return None;

@@ -17,7 +17,8 @@ pub struct ItemScope {
     forms: BTreeSet<u16>,
     /// True where the rows are groups of items.
     pub grouped: bool,
-    /// The dimension whose expression this is: its name means the global one, as in `b = "b"`.
+    /// The dimension whose expression this is. Its own name, and properties that follow from it, give way to global ones:
+    /// `b = "b"`, `b = "width"`.
     pub itself: Option<&'static str>,
 }
 
@@ -43,6 +44,12 @@ impl ItemScope {
     /// True where every section concerned offers this property.
     pub fn offers(&self, property: &str) -> bool {
         !self.forms.is_empty() && self.kinds().all(|kind| kind.properties().contains(&property))
+    }
+
+    /// True in a dimension's expression for names that could only lead back to it.
+    pub fn yields(&self, name: &str) -> bool {
+        let given = |&form: &u16| sections::form(form).dimensions.contains(&name);
+        self.itself.is_some_and(|itself| itself == name || (self.offers(name) && !self.forms.iter().all(given)))
     }
 
     /// The name of a kind that does not offer a property some other kind here does.

@@ -1,0 +1,110 @@
+//! `result.json`, format `ribopt-result/1`, written piece by piece: a million variables are never a tree in memory.
+//! Numbers that are none become `null`.
+
+mod conflict;
+mod mistakes;
+mod point;
+mod solutions;
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+
+use super::{Findings, Volumes};
+use conflict::ConflictPart;
+pub use mistakes::{Mistake, write_mistakes};
+use point::{BoundsPart, ConstraintsPart, Point};
+use solutions::{AgreementPart, MinimaPart, SolutionsPart, scope};
+
+/// The `format` of the file.
+pub const FORMAT: &str = "ribopt-result/1";
+
+/// Beyond this many variables and rows the file is written without line breaks.
+const MOST_PRETTY: usize = 10_000;
+
+/// Writes the result.
+///
+/// # Errors
+/// Whatever the writer says.
+pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let meta = findings.model.meta();
+    if meta.variables() + meta.rows() <= MOST_PRETTY {
+        serde_json::to_writer_pretty(&mut *out, &ResultFile(findings))?;
+    } else {
+        serde_json::to_writer(&mut *out, &ResultFile(findings))?;
+    }
+    out.write_all(b"\n")
+}
+
+/// Writes any JSON value, indented.
+///
+/// # Errors
+/// Whatever the writer says.
+pub fn write_value(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    out.write_all(b"\n")
+}
+
+struct ResultFile<'a>(&'a Findings<'a>);
+
+impl Serialize for ResultFile<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (findings, outcome) = (self.0, self.0.outcome);
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("format", FORMAT)?;
+        map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
+        map.serialize_entry("problem", &ProblemPart::of(findings))?;
+        map.serialize_entry("status", outcome.status.as_str())?;
+        map.serialize_entry("scope", scope(outcome.scope))?;
+        map.serialize_entry("message", &outcome.message)?;
+        map.serialize_entry("remedy", &outcome.remedy)?;
+        map.serialize_entry("objective", &findings.objective())?;
+        map.serialize_entry("lower_bound", &findings.lower_bound())?;
+        map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)?;
+        map.serialize_entry("variables", &Point { findings, x: &outcome.x })?;
+        map.serialize_entry("bounds", &BoundsPart(findings))?;
+        map.serialize_entry("constraints", &ConstraintsPart(findings))?;
+        map.serialize_entry("solutions", &SolutionsPart(findings))?;
+        map.serialize_entry("agreement", &outcome.agreement.map(AgreementPart::from))?;
+        map.serialize_entry("conflict", &ConflictPart::of(findings))?;
+        map.serialize_entry("direction", &outcome.direction.as_ref().map(|x| Point { findings, x }))?;
+        map.serialize_entry("runaway", &names(&outcome.runaway, |j| findings.model.variable_name(j)))?;
+        map.serialize_entry("minima", &MinimaPart(findings))?;
+        map.serialize_entry("warnings", &findings.about.warnings)?;
+        map.serialize_entry("mistakes", &[(); 0])?;
+        map.end()
+    }
+}
+
+fn names(indices: &[usize], name: impl Fn(usize) -> String) -> Vec<String> {
+    indices.iter().map(|&at| name(at)).collect()
+}
+
+#[derive(Serialize)]
+struct ProblemPart<'a> {
+    title: &'a str,
+    file: &'a str,
+    sha256: &'a str,
+    variables: usize,
+    constraints: usize,
+    class: String,
+    sense: &'static str,
+    objective: &'a str,
+}
+
+impl<'a> ProblemPart<'a> {
+    fn of(findings: &Findings<'a>) -> Self {
+        let (about, meta) = (findings.about, findings.model.meta());
+        ProblemPart {
+            title: &about.title,
+            file: &about.file,
+            sha256: &about.sha256,
+            variables: meta.variables(),
+            constraints: meta.rows(),
+            class: findings.class.to_string(),
+            sense: if findings.sign() < 0.0 { "maximize" } else { "minimize" },
+            objective: &about.objective,
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! `circle`: diameter d.
+
+use std::f64::consts::PI;
+
+use super::build::monomial;
+use super::{Form, Given, Kind};
+use crate::expression::graph::{Graph, NodeId};
+use crate::geometry::Superellipse;
+
+/// The solid circle.
+pub struct Circle;
+
+static FORMS: &[Form] = &[Form { kind: "circle", dimensions: &["d"] }];
+
+impl Kind for Circle {
+    fn name(&self) -> &'static str {
+        "circle"
+    }
+
+    fn forms(&self) -> &'static [Form] {
+        FORMS
+    }
+
+    fn properties(&self) -> &'static [&'static str] {
+        &["d", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
+    }
+
+    /// J is exact; shear areas 6/7·A (Cowper, *J. Appl. Mech.* 33, 1966, at ν = 0).
+    fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
+        let d = given.dimensions[0];
+        let mut power = |factor, exponent| monomial(graph, factor, &[(d, exponent)]);
+        Some(match name {
+            "d" | "width" | "height" => d,
+            "A" => power(PI / 4.0, 2.0),
+            "Ix" | "Iy" => power(PI / 64.0, 4.0),
+            "Wx" | "Wy" => power(PI / 32.0, 3.0),
+            "J" => power(PI / 32.0, 4.0),
+            "Asx" | "Asy" => power(6.0 / 7.0 * PI / 4.0, 2.0),
+            _ => return None,
+        })
+    }
+
+    fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
+        self.property(graph, given, "A").into_iter().collect()
+    }
+
+    fn posynomial_volume(&self, _: &Form) -> bool {
+        true
+    }
+
+    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
+        ring(given[0], tolerance).into_iter().collect()
+    }
+}
+
+/// A circle of diameter d as a polygon inside it, anticlockwise.
+pub(super) fn ring(d: f64, tolerance: f64) -> Option<Vec<[f64; 2]>> {
+    Superellipse::new(d / 2.0, d / 2.0, 2.0).ok()?.polygon(tolerance).ok()
+}

@@ -1,0 +1,100 @@
+//! `polygon`: any simple polygon, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
+
+use super::build::monomial;
+use super::{Form, Given, Kind};
+use crate::expression::graph::{Graph, NodeId};
+use crate::geometry::Polygon as Shape;
+
+/// A polygon given by points, scaled.
+pub struct Polygon;
+
+static FORMS: &[Form] =
+    &[Form { kind: "polygon", dimensions: &["scale"] }, Form { kind: "polygon", dimensions: &["scale_x", "scale_y"] }];
+
+impl Kind for Polygon {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn forms(&self) -> &'static [Form] {
+        FORMS
+    }
+
+    fn properties(&self) -> &'static [&'static str] {
+        &[
+            "scale",
+            "scale_x",
+            "scale_y",
+            "A",
+            "Ix",
+            "Iy",
+            "Ixy",
+            "Wx",
+            "Wx_top",
+            "Wx_bottom",
+            "Wy",
+            "Wy_left",
+            "Wy_right",
+            "width",
+            "height",
+        ]
+    }
+
+    /// Every property is its value at scale 1 times powers of the scales.
+    fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
+        let (x, y) = match *given.dimensions {
+            [scale] => (scale, scale),
+            [x, y] => (x, y),
+            _ => return None,
+        };
+        if given.form.dimensions.contains(&name) {
+            return Some(if name == "scale_y" { y } else { x });
+        }
+        let shape = Shape::new(given.outline.to_vec(), Vec::new()).ok()?;
+        let own = shape.properties();
+        let extent = |d: usize| {
+            let reach = |sign: f64| shape.outer().iter().map(|v| sign * (v[d] - own.centroid[d])).fold(0.0, f64::max);
+            reach(1.0) + reach(-1.0)
+        };
+        let (factor, x_power, y_power) = match name {
+            "A" => (own.area, 1.0, 1.0),
+            "Ix" => (own.ix, 1.0, 3.0),
+            "Iy" => (own.iy, 3.0, 1.0),
+            "Ixy" => (own.ixy, 2.0, 2.0),
+            "Wx" => (own.wx(), 1.0, 2.0),
+            "Wx_top" => (own.wx_top, 1.0, 2.0),
+            "Wx_bottom" => (own.wx_bottom, 1.0, 2.0),
+            "Wy" => (own.wy(), 2.0, 1.0),
+            "Wy_left" => (own.wy_left, 2.0, 1.0),
+            "Wy_right" => (own.wy_right, 2.0, 1.0),
+            "width" => (extent(0), 1.0, 0.0),
+            "height" => (extent(1), 0.0, 1.0),
+            _ => return None,
+        };
+        let powers: Vec<_> = [(x, x_power), (y, y_power)].into_iter().filter(|(_, power)| *power > 0.0).collect();
+        Some(monomial(graph, factor, &powers))
+    }
+
+    fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
+        self.property(graph, given, "A").into_iter().collect()
+    }
+
+    fn posynomial_volume(&self, _: &Form) -> bool {
+        true
+    }
+
+    fn has_outline(&self) -> bool {
+        true
+    }
+
+    fn outline_defect(&self, _: &Form, outline: &[[f64; 2]]) -> Option<String> {
+        Shape::new(outline.to_vec(), Vec::new()).err().map(|error| error.to_string())
+    }
+
+    fn rings(&self, _: &Form, given: &[f64], outline: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+        let (Some(x), Some(y)) = (given.first(), given.last()) else { return Vec::new() };
+        let Ok(shape) = Shape::new(outline.to_vec(), Vec::new()) else { return Vec::new() };
+        let [cx, cy] = shape.properties().centroid;
+        vec![shape.outer().iter().map(|v| [x * (v[0] - cx), y * (v[1] - cy)]).collect()]
+    }
+}
