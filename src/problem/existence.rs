@@ -36,7 +36,7 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     found
 }
 
-/// The dimensions that must be positive: the given ones, and those of the kind that do not hang on a single given one.
+/// The dimensions that must be positive: the given ones, and those of the kind that are no mere multiple of a given one.
 fn needed(problem: &Problem, section: u32) -> impl Iterator<Item = &'static str> {
     let form = sections_form(problem, section as usize);
     let number = problem.sections.form[section as usize];
