@@ -62,6 +62,8 @@ pub(super) struct SectionEntry {
     /// `None` where it is missing (already a mistake).
     pub kind: Option<Written>,
     pub dimensions: Vec<(Name, DimensionEntry)>,
+    /// `points`, for kinds drawn by them, and where they stand.
+    pub points: Option<(Vec<[f64; 2]>, Place)>,
     pub data: Vec<(Name, Datum)>,
 }
 

@@ -84,8 +84,29 @@ fn section() -> Value {
         let mut properties = Map::new();
         properties.insert("kind".into(), json!({ "const": kind.name() }));
         properties.insert("data".into(), data());
-        properties.extend(form.dimensions.iter().map(|name| ((*name).to_owned(), dimension.clone())));
-        let required: Vec<&str> = std::iter::once("kind").chain(form.dimensions.iter().copied()).collect();
+        let list = form.dimensions.first().and_then(|name| name.strip_suffix("[1]"));
+        let mut required = vec!["kind"];
+        match list {
+            // As a list; one by one under their numbered names they are read too.
+            Some(name) => {
+                let count = form.dimensions.len();
+                let list = json!({ "type": "array", "items": dimension, "minItems": count, "maxItems": count });
+                properties.insert(name.into(), list);
+                required.push(name);
+            }
+            None => {
+                properties.extend(form.dimensions.iter().map(|name| ((*name).to_owned(), dimension.clone())));
+                required.extend(form.dimensions);
+            }
+        }
+        if kind.has_outline() {
+            let point = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+            properties.insert(
+                "points".into(),
+                json!({ "type": "array", "items": point, "description": "Points [x, y] of the outline or line." }),
+            );
+            required.push("points");
+        }
         object(Value::Object(properties), &required)
     });
     json!({ "anyOf": alternatives.collect::<Vec<Value>>() })

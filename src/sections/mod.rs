@@ -150,6 +150,17 @@ pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[[f64; 2]
     graph.as_constant(node)
 }
 
+/// The name of element k, counted from 1, of a dimension that is a list: `thickness[2]`.
+pub fn numbered(name: &str, k: usize) -> String {
+    format!("{name}[{k}]")
+}
+
+/// Is this the name of a dimension that some kind takes as a list, `thickness`?
+pub fn is_numbered(name: &str) -> bool {
+    let first = numbered(name, 1);
+    forms().any(|(_, form)| form.dimensions.contains(&first.as_str()))
+}
+
 /// The first dimension, given or named by [`Kind::positive`], that is not positive and finite.
 fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
     let kind = kind(name)?;

@@ -39,6 +39,7 @@ impl Assembly<'_> {
         let given: Vec<Given> = entry.dimensions.iter().map(|(name, value)| self.given(name, value)).collect();
         let kind = entry.kind.as_ref().and_then(|written| self.kind(&written.text, written.place));
         let Some(s) = self.section(&entry.name, kind, given) else { return };
+        self.outline(s, kind, entry.points.as_ref());
         for (name, datum) in &entry.data {
             if kind.is_some_and(|kind| kind.properties().contains(&name.text.as_str())) {
                 let message = format!("`{}` is a property of this kind of section already", name.text);

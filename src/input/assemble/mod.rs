@@ -6,6 +6,7 @@ mod data;
 mod existence;
 mod items;
 mod links;
+mod outlines;
 mod overrides;
 mod requirement;
 mod tables;
@@ -75,6 +76,7 @@ pub(super) fn assemble(
     assembly.objective(&declared);
     assembly.constraints(&declared.constraints);
     assembly.check_existence();
+    assembly.check_outlines();
     assembly.say_unused();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
     assembly.problem.units = std::mem::take(&mut declared.units);

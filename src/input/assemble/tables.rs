@@ -39,10 +39,18 @@ impl Assembly<'_> {
         let name = Name { text: row.field(columns.name).to_owned(), place: row.place(columns.name) };
         let kind = self.kind(row.field(columns.kind), row.place(columns.kind));
         let mut given = Vec::with_capacity(4);
-        for dimension in &columns.dimensions {
+        let (own, foreign): (Vec<_>, Vec<_>) = columns.dimensions.iter().partition(|dimension| dimension.belongs_to(kind));
+        for dimension in own {
             given.extend(self.cell(row, dimension));
         }
         if let Some(s) = self.section(&name, kind, given) {
+            self.outline(s, kind, None);
+            // A dimension of other kinds is a datum here.
+            for dimension in foreign {
+                let Some(at) = dimension.value.filter(|at| !row.field(*at).is_empty()) else { continue };
+                let column = self.section_data.column(&dimension.name);
+                put(&mut self.section_data, &mut self.findings, row, at, column, s as usize);
+            }
             for &(at, column) in &columns.data {
                 put(&mut self.section_data, &mut self.findings, row, at, column, s as usize);
             }

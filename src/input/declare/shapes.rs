@@ -5,6 +5,7 @@ use crate::input::declaration::{Datum, DimensionEntry, Name, RibEntry, SectionEn
 use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
 use crate::problem::VolumeLaw;
+use crate::sections;
 use toml::de::DeValue;
 
 /// One section: `kind`, `data`, and every other key a dimension.
@@ -13,8 +14,32 @@ pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry
     let what = format!("section `{}`", field.key);
     let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
     let data = data(&mut fields, reader);
-    let dimensions = fields.rest().iter().map(|field| (name(field), dimension(field, reader))).collect();
-    Some(SectionEntry { name: name(field), kind, dimensions, data })
+    let points = fields.take("points").map(|field| (points(&field, reader), field.place));
+    let dimensions = fields.rest().iter().flat_map(|field| dimensions(field, reader)).collect();
+    Some(SectionEntry { name: name(field), kind, dimensions, points, data })
+}
+
+/// `points = [[x, y], …]`
+fn points(field: &Field, reader: &mut Reader) -> Vec<[f64; 2]> {
+    let what = "points as [[x, y], [x, y], …]";
+    let Some(items) = field.items() else { return field.expected(what, reader).unwrap_or_default() };
+    let point = |item: Field| match item.items().as_deref() {
+        Some([x, y]) => Some([x.number(reader)?, y.number(reader)?]),
+        _ => item.expected(what, reader),
+    };
+    items.into_iter().filter_map(point).collect()
+}
+
+/// One dimension, or the elements of a list of them: `thickness = [0.01, 0.02]` gives `thickness[1]` and `thickness[2]`.
+fn dimensions(field: &Field, reader: &mut Reader) -> Vec<(Name, DimensionEntry)> {
+    let Some(items) = field.items().filter(|_| sections::is_numbered(field.key)) else {
+        return vec![(name(field), dimension(field, reader))];
+    };
+    let element = |(at, item): (usize, Field)| {
+        let text = sections::numbered(field.key, at + 1);
+        (Name { text, place: item.place }, dimension(&item, reader))
+    };
+    items.into_iter().enumerate().map(element).collect()
 }
 
 fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {

@@ -144,6 +144,11 @@ impl<'a, 'r> Resolver<'a, 'r> {
 
     /// `x[3]`
     fn index(&mut self, base: &Ast, index: &Ast, span: Span) -> Option<Value> {
+        if let AstKind::Name(parts) = &base.kind
+            && let Some(found) = self.element(parts, index, span)
+        {
+            return found.map(Value::Scalar);
+        }
         let (base_value, position) = (self.value(base), self.scalar(index));
         let Value::Array(mut list) = base_value? else {
             return self.mistake(base.span, "this is one number, not an array", Some("leave the index out".into()));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Resolver, Stage, Value};
 use crate::expression::Span;
-use crate::expression::ast::Collection;
+use crate::expression::ast::{Ast, Collection};
 use crate::problem::evaluate::number;
 use crate::problem::formula::{End, Total};
 use crate::problem::names::Entity;
@@ -27,6 +27,28 @@ impl<'a> Resolver<'a, '_> {
             [item, name] => self.member(item, name, span).map(Value::Scalar),
             [rib, end, name] => self.rib_end(rib, end, name, span).map(Value::Scalar),
             _ => self.mistake(span, "too many dots", Some("as in support.Ix, haunch.length, haunch.from.b".into())),
+        }
+    }
+
+    /// `plate.thickness[2]`: an element of a dimension that is a list; `None` where the name is none.
+    pub(super) fn element(&mut self, parts: &[String], index: &Ast, span: Span) -> Option<Option<Formula>> {
+        let (last, items) = parts.split_last()?;
+        let global = items.is_empty() && self.world.names.find(self.world.problem, last).is_some();
+        if global || !sections::is_numbered(last) {
+            return None;
+        }
+        let Some(Formula::Constant(k)) = self.scalar(index) else {
+            return Some(self.mistake(
+                index.span,
+                "this index is not constant",
+                Some("an index is a number or an expression in parameters".into()),
+            ));
+        };
+        let element = sections::numbered(last, k.max(0.0) as usize);
+        let name: Vec<String> = items.iter().cloned().chain([element]).collect();
+        match self.name(&name, span) {
+            Some(Value::Scalar(formula)) => Some(Some(formula)),
+            _ => Some(None),
         }
     }
 
@@ -168,6 +190,14 @@ impl<'a> Resolver<'a, '_> {
         }
     }
 
+    /// Does the section have this element of a list of dimensions? The list's length is that of its points.
+    fn has_element(&self, s: u32, name: &str) -> bool {
+        let (problem, number) = (self.world.problem, self.world.problem.sections.form[s as usize]);
+        let (kind, form) = (sections::kind_of(number), sections::form(number));
+        let ones = vec![1.0; form.dimensions.len()];
+        sections::evaluate(kind, form, &ones, problem.outline(s), name).is_some()
+    }
+
     fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
         let problem = self.world.problem;
         let number = *problem.sections.form.get(s as usize)?;
@@ -179,7 +209,7 @@ impl<'a> Resolver<'a, '_> {
             }
         }
         let kind = sections::kind_of(number);
-        if kind.properties().contains(&name) {
+        if kind.properties().contains(&name) && (!name.ends_with(']') || self.has_element(s, name)) {
             return Some(self.folded(Formula::SectionProperty(s, property(name))));
         }
         match self.cell(Collection::Sections, s, name, span) {

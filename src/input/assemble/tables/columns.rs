@@ -5,7 +5,7 @@ use crate::input::assemble::data::DataColumns;
 use crate::input::findings::Findings;
 use crate::input::table::Table;
 use crate::problem::nearest::did_you_mean;
-use crate::sections;
+use crate::sections::{self, Kind};
 
 /// Columns of the table of sections.
 pub(super) struct SectionColumns {
@@ -36,6 +36,14 @@ pub(super) struct RibColumns {
     pub law: Option<usize>,
     /// Field and data column.
     pub data: Vec<(usize, usize)>,
+}
+
+impl Dimension {
+    /// Does the kind know this dimension? True too where the kind is unknown, and for bounds, which no datum has: the mistake is told later.
+    pub fn belongs_to(&self, kind: Option<&'static dyn Kind>) -> bool {
+        let bounds = self.lower.is_some() || self.upper.is_some() || self.start.is_some();
+        bounds || kind.is_none_or(|kind| kind.forms().iter().any(|form| form.dimensions.contains(&self.name.as_str())))
+    }
 }
 
 impl SectionColumns {
