@@ -27,6 +27,7 @@ pub mod input;
 pub mod linear_algebra;
 pub mod log;
 pub mod math;
+pub mod mesh;
 pub mod model;
 pub mod problem;
 pub mod report;

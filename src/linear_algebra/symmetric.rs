@@ -62,7 +62,7 @@ pub struct SymmetricSolver {
 enum Method {
     Sparse(Box<Solver>),
     /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
-    Dense(DenseSolver),
+    Dense(Box<DenseSolver>),
 }
 
 impl SymmetricSolver {
@@ -90,7 +90,8 @@ impl SymmetricSolver {
             }
         }
         let matrix = CscMatrix { n, col_ptr: starts, row_idx: rows, values: vec![0.0; columns.len()] };
-        let method = if n <= dense::LARGEST_ORDER { Method::Dense(DenseSolver::new(n)) } else { Method::Sparse(Box::default()) };
+        let method =
+            if n <= dense::LARGEST_ORDER { Method::Dense(Box::new(DenseSolver::new(n))) } else { Method::Sparse(Box::default()) };
         Ok(SymmetricSolver { matrix, places, method })
     }
 

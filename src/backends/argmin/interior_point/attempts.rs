@@ -1,7 +1,8 @@
 //! From one run of the engine to the next: anew in better scales where those of the start no longer fit the solution,
 //! and from elsewhere where the first run failed.
 
-use super::engine::{Beginning, Ending, Engine};
+use super::begin::Beginning;
+use super::engine::{Ending, Engine};
 use super::form::{Form, Source};
 use super::scaling;
 use super::start;

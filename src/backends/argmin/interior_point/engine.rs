@@ -4,12 +4,11 @@
 
 use super::barrier;
 use super::filter::Filter;
-use super::form::{Form, Source};
+use super::form::Form;
 use super::iterate::{Errors, Iterate};
 use super::kkt::{Blocks, Kkt, Sides};
 use super::line_search::Search;
 use super::restoration::Restoration;
-use super::start;
 use super::vectors::moved;
 use super::watchdog::Watchdog;
 use crate::model::EvaluationError;
@@ -24,7 +23,8 @@ const PATIENCE_FAR: u64 = 1500;
 /// δ_c where only the number of negative eigenvalues is wanted.
 pub(super) const LAST_REGULARISATION: f64 = 1e-10;
 /// First and last barrier parameter, κ_μ, θ_μ and κ_ε of its decrease, τ_min.
-const FIRST_BARRIER: f64 = 0.1;
+pub(super) const FIRST_BARRIER: f64 = 0.1;
+pub(super) const WARM_BARRIER: f64 = 1e-6;
 const LAST_BARRIER: f64 = 1e-12;
 const LINEAR_DECREASE: f64 = 0.2;
 const SUPERLINEAR_DECREASE: f64 = 1.5;
@@ -87,91 +87,18 @@ pub(super) struct Engine<'a> {
     pub escapes: usize,
     pub watchdog: Option<Box<Watchdog>>,
     pub shortened_steps: usize,
-    tiny_steps: usize,
-    iterations: u64,
+    pub tiny_steps: usize,
+    pub iterations: u64,
 }
 
 /// The iterate with the least optimality error.
 pub(super) struct Best {
     pub error: f64,
     pub iterate: Iterate,
-    iteration: u64,
+    pub iteration: u64,
 }
 
-/// How to begin.
-#[derive(Clone, Copy)]
-pub(super) struct Beginning<'s> {
-    /// The model's x.
-    pub x: &'s [f64],
-    /// What the variables are scaled by: their sizes here.
-    pub magnitudes: &'s [f64],
-    /// The model's row multipliers of an earlier answer.
-    pub multipliers: Option<&'s [f64]>,
-    /// By how much the limits of rows are eased while iterating.
-    pub ease: f64,
-    /// First barrier parameter, if not the usual one.
-    pub mu: Option<f64>,
-    /// Push inside the bounds, if not the usual one.
-    pub push: Option<f64>,
-}
-
-impl<'s> Beginning<'s> {
-    /// A cold start.
-    pub fn at(x: &'s [f64]) -> Self {
-        Beginning { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
-    }
-}
-
-impl<'a> Engine<'a> {
-    /// At the start, ready to iterate.
-    pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
-        let warm = beginning.multipliers.is_some();
-        let mut form = Form::new(model, beginning.x, beginning.magnitudes);
-        form.ease = beginning.ease;
-        let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
-        let mu = beginning.mu.unwrap_or(if warm { 1e-6 } else { FIRST_BARRIER });
-        let mut iterate = start::place(&mut form, beginning.x, push)?;
-        let mut kkt =
-            Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
-        match beginning.multipliers {
-            Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
-            None => {
-                start::unit_bound_multipliers(&form, &mut iterate);
-                start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
-            }
-        }
-        let (size, m) = (form.size(), form.rows.len());
-        let violation = iterate.violation().max(1.0);
-        let mut engine = Engine {
-            kkt,
-            filter: Filter::default(),
-            mu,
-            trial: iterate.clone(),
-            best: Best { error: f64::INFINITY, iterate: iterate.clone(), iteration: 0 },
-            iterate,
-            direction: Direction { w: vec![0.0; size], y: vec![0.0; m], z_lower: vec![0.0; size], z_upper: vec![0.0; size] },
-            barrier_gradient: vec![0.0; size],
-            right: vec![0.0; size],
-            hessian: vec![0.0; form.hessian.len()],
-            sigma: vec![0.0; size],
-            smallest_violation: 1e-4 * violation,
-            largest_violation: 1e4 * violation,
-            restoration: None,
-            restorations: 0,
-            step_norm: 0.0,
-            errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
-            escapes: 0,
-            watchdog: None,
-            shortened_steps: 0,
-            tiny_steps: 0,
-            iterations: 0,
-            form,
-        };
-        engine.filter.reset(engine.largest_violation);
-        engine.assess();
-        Ok(engine)
-    }
-
+impl Engine<'_> {
     /// τ of the fraction-to-the-boundary rule.
     pub fn tau(&self) -> f64 {
         LEAST_TAU.max(1.0 - self.mu)

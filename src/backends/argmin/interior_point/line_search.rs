@@ -108,10 +108,11 @@ impl Engine<'_> {
                     self.watch(here);
                     return Ok(Search::Step(length));
                 }
-                if first && measure.violation >= here.measure.violation {
-                    if let Some(corrected) = self.second_order_correction(&here, longest, measure)? {
-                        return Ok(Search::Step(corrected));
-                    }
+                if first
+                    && measure.violation >= here.measure.violation
+                    && let Some(corrected) = self.second_order_correction(&here, longest, measure)?
+                {
+                    return Ok(Search::Step(corrected));
                 }
             }
             first = false;

@@ -5,7 +5,7 @@
 //! | [`form`], [`scaling`] | the problem with slacks, without fixed variables, scaled |
 //! | [`engine`] | one iteration |
 //! | [`iterate`] | a primal-dual point and its optimality error |
-//! | [`start`] | the first iterate |
+//! | [`begin`], [`start`] | the first iterate |
 //! | [`barrier`] | the logarithmic barrier |
 //! | [`kkt`] | the Newton system and its inertia |
 //! | [`line_search`], [`filter`] | which steps are taken |
@@ -17,6 +17,7 @@
 
 mod attempts;
 mod barrier;
+mod begin;
 mod elastic;
 mod engine;
 mod filter;
@@ -39,7 +40,8 @@ use super::state::{Conclusion, NlpState, Point};
 use crate::backends::Termination;
 use crate::model::Evaluator;
 use attempts::Attempts;
-use engine::{Beginning, Ending, Engine};
+use begin::Beginning;
+use engine::{Ending, Engine};
 use form::Source;
 
 /// A primal-dual interior point with a filter line search.

@@ -89,16 +89,7 @@ impl Engine<'_> {
         let mut point = best.clone();
         point.y.fill(0.0);
         point.lagrangian_gradient(form, right);
-        for j in 0..sides.len() {
-            let held = sides[j] != Side::Free;
-            right[j] = if held || j >= n { 0.0 } else { -right[j] };
-            sigma[j] = match (held, j < n) {
-                (true, true) => HELD,
-                (false, true) => 1.0,
-                (true, false) => f64::INFINITY,
-                (false, false) => 1.0 / HELD,
-            };
-        }
+        restrict(sides, n, 1.0, right, sigma);
         hessian.fill(0.0);
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
         let zeros = vec![0.0; form.rows.len()];
@@ -119,17 +110,7 @@ impl Engine<'_> {
         let n = form.variables();
         form.hessian(&point.w, &point.y, hessian)?;
         point.lagrangian_gradient(form, right);
-        for j in 0..sides.len() {
-            let held = sides[j] != Side::Free;
-            right[j] = if held || j >= n { 0.0 } else { -right[j] };
-            sigma[j] = match (held, j < n) {
-                (true, true) => HELD,
-                (false, true) => 0.0,
-                // A held slack makes its row an equality; a free one takes its row out.
-                (true, false) => f64::INFINITY,
-                (false, false) => 1.0 / HELD,
-            };
-        }
+        restrict(sides, n, 0.0, right, sigma);
         let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
         let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
@@ -166,6 +147,21 @@ fn active_set(form: &Form<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<Side> {
             }
         })
         .collect()
+}
+
+/// Turns a gradient into the right-hand side of the free variables, and Σ into what holds the others: a held variable
+/// stays, a held slack makes its row an equality, a free one takes its row out. Free variables get Σ = `free`.
+fn restrict(sides: &[Side], variables: usize, free: f64, right: &mut [f64], sigma: &mut [f64]) {
+    for (j, side) in sides.iter().enumerate() {
+        let held = *side != Side::Free;
+        right[j] = if held || j >= variables { 0.0 } else { -right[j] };
+        sigma[j] = match (held, j < variables) {
+            (true, true) => HELD,
+            (false, true) => free,
+            (true, false) => f64::INFINITY,
+            (false, false) => 1.0 / HELD,
+        };
+    }
 }
 
 /// Puts held components onto their bounds.

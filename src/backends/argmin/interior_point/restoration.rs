@@ -1,12 +1,13 @@
 //! The feasibility restoration: Wächter & Biegler (2006), §3.3. The same engine minimises the violation until the
 //! filter accepts a point again, or a local minimum of the violation shows that there is none nearby.
 
+use super::begin::Beginning;
 use super::elastic::Elastic;
-use super::engine::{Beginning, Ending, Engine};
+use super::engine::{Ending, Engine};
 use super::form::Source;
 use super::start;
 use super::vectors::norm_max;
-use crate::model::EvaluationError;
+use crate::model::{EvaluationError, Model};
 
 /// κ_resto: the violation must fall to this share before the iterations return.
 const DECREASE: f64 = 0.9;
@@ -53,7 +54,7 @@ impl<'a> Engine<'a> {
         let rows: Vec<(usize, f64)> = self.form.rows.iter().copied().zip(self.form.row_scale.iter().copied()).collect();
         let mu = self.mu.max(norm_max(&self.iterate.residual).min(1e3));
         let elastic = Elastic::new(model, &x, rows, zeta, mu)?;
-        let start = crate::model::Model::meta(&elastic).start.clone();
+        let start = elastic.meta().start.clone();
         let beginning = Beginning { mu: Some(mu), push: Some(start::WARM_PUSH), ..Beginning::at(&start) };
         match Engine::new(Source::Own(Box::new(elastic)), beginning) {
             Ok(engine) => {
@@ -99,7 +100,7 @@ impl<'a> Engine<'a> {
         for (at, &j) in self.form.free.iter().enumerate() {
             self.trial.w[at] = x[j] / self.form.variable_scale[at];
         }
-        let push = self.mu.min(start::COLD_PUSH).max(start::WARM_PUSH * 1e-4);
+        let push = self.mu.clamp(start::WARM_PUSH * 1e-4, start::COLD_PUSH);
         self.form.keep_inside(&mut self.trial.w);
         match self.trial.evaluate(&mut self.form) {
             Ok(()) => start::place_slacks(&self.form, &mut self.trial, push),

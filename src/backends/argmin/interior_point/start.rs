@@ -62,8 +62,8 @@ fn evaluate_in_domain(form: &mut Form<'_>, iterate: &mut Iterate) -> Result<(), 
     };
     let start = iterate.w.clone();
     for share in TOWARDS_MIDDLE {
-        for j in 0..form.variables() {
-            iterate.w[j] = start[j] + share * (middle(start[j], form.lower[j], form.upper[j], j) - start[j]);
+        for (j, &from) in start.iter().enumerate().take(form.variables()) {
+            iterate.w[j] = from + share * (middle(from, form.lower[j], form.upper[j], j) - from);
         }
         match iterate.evaluate(form) {
             Err(EvaluationError::Invalid { .. }) => {}

@@ -1,0 +1,138 @@
+//! Files: OBJ, PLY (ascii and binary), OFF and STL in; OBJ, STL and VTU out. The name's ending decides.
+//!
+//! PLY is read by `ply-rs-bw`, STL read and written by `stl_io`. OBJ and OFF are read here: `tobj` 4.0 numbers vertices anew
+//! per group, so shared vertices are lost, and its errors name no line. VTU is written here: `vtkio` is at 0.7.0-rc2.
+
+mod lexer;
+mod obj_read;
+mod obj_write;
+mod off;
+mod ply;
+mod stl;
+mod vtu;
+
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Write};
+use std::path::Path;
+
+pub use obj_read::read_obj;
+pub use obj_write::{write_lines, write_obj};
+pub use off::read_off;
+pub use ply::read_ply;
+pub use stl::{read_stl, write_stl};
+pub use vtu::{CellData, write_vtu};
+
+use super::{PolygonMesh, Vector};
+
+/// Why a file could not be read or written.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)]
+pub enum FormatError {
+    /// The operating system says no.
+    #[error("{path}: {cause}")]
+    Io { path: String, cause: std::io::Error },
+    /// A reader found a mistake; the file's name is added by [`read`].
+    #[error("line {line}: {cause}")]
+    Line { line: usize, cause: String },
+    /// A mistake that has no line (binary files, missing parts).
+    #[error("{0}")]
+    Content(String),
+    /// One of the above, in this file.
+    #[error("{path}: {cause}")]
+    In { path: String, cause: Box<FormatError> },
+    /// An ending that names no format.
+    #[error("{path}: cannot tell the format from the ending; expected one of {expected}")]
+    Ending { path: String, expected: &'static str },
+}
+
+impl FormatError {
+    pub(super) fn line(line: usize, cause: impl Into<String>) -> Self {
+        FormatError::Line { line, cause: cause.into() }
+    }
+
+    pub(super) fn io(path: &Path, cause: std::io::Error) -> Self {
+        FormatError::Io { path: path.display().to_string(), cause }
+    }
+}
+
+/// Largest magnitude of a coordinate: its cube is still a number.
+const LARGEST: f64 = 1e100;
+
+/// Reads a mesh; `.obj`, `.ply`, `.off` or `.stl`.
+///
+/// # Errors
+/// Every error names the file and, in text formats, the line.
+pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
+    let kind = ending(path);
+    if !["obj", "ply", "off", "stl"].contains(&kind.as_str()) {
+        return Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .ply, .off, .stl" });
+    }
+    let mut file = BufReader::new(File::open(path).map_err(|cause| FormatError::io(path, cause))?);
+    let mesh = match kind.as_str() {
+        "obj" => read_obj(file),
+        "ply" => read_ply(file),
+        "off" => read_off(file),
+        _ => read_stl(&mut file),
+    };
+    mesh.map_err(|cause| FormatError::In { path: path.display().to_string(), cause: Box::new(cause) })
+}
+
+/// Writes a mesh as `.obj`, `.stl` or `.vtu`, with numbers per face for the last.
+///
+/// # Errors
+/// Where the ending names no format or the file cannot be written.
+pub fn write(path: &Path, mesh: &PolygonMesh, data: &[CellData]) -> Result<(), FormatError> {
+    let kind = ending(path);
+    if !["obj", "stl", "vtu"].contains(&kind.as_str()) {
+        return Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .stl, .vtu" });
+    }
+    let written = create(path).and_then(|mut out| {
+        match kind.as_str() {
+            "obj" => write_obj(&mut out, mesh)?,
+            "stl" => write_stl(&mut out, mesh)?,
+            _ => write_vtu(&mut out, mesh, data)?,
+        }
+        out.flush()
+    });
+    written.map_err(|cause| FormatError::io(path, cause))
+}
+
+/// Opens a file for writing, making its folder where there is none.
+pub(crate) fn create(path: &Path) -> std::io::Result<BufWriter<File>> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder)?;
+    }
+    Ok(BufWriter::new(File::create(path)?))
+}
+
+/// The lower-case ending of a file's name.
+pub(crate) fn ending(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// A point whose coordinates are numbers of a usable size.
+fn point(x: f64, y: f64, z: f64) -> Result<Vector, String> {
+    let vector = Vector::new(x, y, z);
+    if vector.iter().all(|c| c.abs() <= LARGEST) {
+        Ok(vector)
+    } else {
+        Err(format!("the point ({x}, {y}, {z}) is not finite, or larger than {LARGEST:e}"))
+    }
+}
+
+/// Refuses faces and ribs that point at vertices which are not there.
+fn check_numbers(mesh: &PolygonMesh) -> Result<(), FormatError> {
+    let count = mesh.vertices.len();
+    for (f, face) in mesh.faces().enumerate() {
+        if let Some(v) = face.iter().find(|&&v| v as usize >= count) {
+            return Err(FormatError::Content(format!(
+                "face {}: vertex number {v} (from 0), but there are {count} vertices",
+                f + 1
+            )));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

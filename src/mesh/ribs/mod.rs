@@ -1,0 +1,241 @@
+//! From a rib network to a problem folder: `problem.toml`, `sections.csv`, `ribs.csv` (SPEC §1, `[tables]`) and
+//! `geometry.csv` (where the ribs lie, for solids and pictures).
+//!
+//! Every line counts as a simply supported beam under a line load q: its sag at midspan, by the unit-load method
+//! ∫ M·m/(E·I) ds, may be at most span/sag_ratio. The integral is `sag` per rib, with 1/I by the trapezoidal rule between
+//! its sections. A closed line counts as two beams of half its length. Slenderness, taper and thickness limits come on top.
+
+mod text;
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::formats::FormatError;
+use super::formats::create;
+use super::network::{Network, Rib, write_geometry};
+
+/// Kinds of sections ribs can be given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionKind {
+    /// b × h.
+    Rectangle,
+    /// tw, hw, b, tf.
+    HBeam,
+}
+
+impl SectionKind {
+    /// The kind's name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            SectionKind::Rectangle => "rectangle",
+            SectionKind::HBeam => "h-beam",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn parse(name: &str) -> Option<SectionKind> {
+        [SectionKind::Rectangle, SectionKind::HBeam].into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Its dimensions with default bounds and starts, in metres.
+    fn dimensions(self) -> Vec<Bounds> {
+        let bounds = |name: &str, lower, upper, start| Bounds { dimension: name.into(), lower, upper, start };
+        match self {
+            SectionKind::Rectangle => vec![bounds("b", 0.02, 0.5, 0.1), bounds("h", 0.04, 1.5, 0.3)],
+            SectionKind::HBeam => vec![
+                bounds("tw", 0.004, 0.05, 0.01),
+                bounds("hw", 0.04, 1.5, 0.3),
+                bounds("b", 0.03, 0.5, 0.15),
+                bounds("tf", 0.004, 0.05, 0.015),
+            ],
+        }
+    }
+}
+
+/// Bounds and start of one dimension, the same at all sections.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    /// Its name.
+    pub dimension: String,
+    /// Lower bound.
+    pub lower: f64,
+    /// Upper bound.
+    pub upper: f64,
+    /// Start.
+    pub start: f64,
+}
+
+/// What the problem is to be. Defaults are metres and kilonewtons, steel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The section kind.
+    pub kind: SectionKind,
+    /// Bounds that replace the kind's own.
+    pub bounds: Vec<Bounds>,
+    /// The volume law of all ribs: `frustum` or `prismatoid`.
+    pub prismatoid: bool,
+    /// Young's modulus E.
+    pub elastic_modulus: f64,
+    /// Line load q.
+    pub load: f64,
+    /// Largest sag is span over this.
+    pub sag_ratio: f64,
+    /// Rectangle: h ≤ this·b. H beam: web height at most 5 × this, flange width at most 4 × this, of their thickness.
+    pub slenderness: f64,
+    /// Largest change of height per length of rib.
+    pub taper_slope: f64,
+    /// The title.
+    pub title: String,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            kind: SectionKind::Rectangle,
+            bounds: Vec::new(),
+            prismatoid: true,
+            elastic_modulus: 210e6,
+            load: 5.0,
+            sag_ratio: 300.0,
+            slenderness: 8.0,
+            taper_slope: 0.1,
+            title: "Ribs of a quad mesh".into(),
+        }
+    }
+}
+
+/// Why no problem was written.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)]
+pub enum RibsError {
+    #[error("{name} must be a positive number, not {value}")]
+    NotPositive { name: String, value: f64 },
+    #[error("{kind} has no dimension '{dimension}'; it has {known}")]
+    UnknownDimension { kind: &'static str, dimension: String, known: String },
+    #[error("bounds of {dimension}: lower {lower} is above upper {upper}")]
+    Crossed { dimension: String, lower: f64, upper: f64 },
+    #[error("there are no ribs: no edge of the mesh is flagged or the mesh has no faces")]
+    NoRibs,
+    #[error(transparent)]
+    Write(#[from] FormatError),
+}
+
+/// What was written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Ribs.
+    pub ribs: usize,
+    /// Sections, and those shared by ribs of several lines.
+    pub sections: usize,
+    /// Variables of the problem.
+    pub variables: usize,
+    /// Lines.
+    pub lines: usize,
+    /// Length of all ribs: the length of all rib edges.
+    pub length: f64,
+}
+
+/// Writes the folder.
+///
+/// # Errors
+/// Limits or bounds that make no sense; files that cannot be written.
+pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Result<Report, RibsError> {
+    if network.ribs.is_empty() {
+        return Err(RibsError::NoRibs);
+    }
+    let bounds = checked_bounds(options)?;
+    let save = |name: &str, write: &dyn Fn(&mut dyn Write) -> Result<(), csv::Error>| {
+        let path = folder.join(name);
+        let mut out = create(&path).map_err(|cause| FormatError::io(&path, cause))?;
+        let written = write(&mut out).map_err(std::io::Error::other).and_then(|()| out.flush());
+        written.map_err(|cause| RibsError::Write(FormatError::io(&path, cause)))
+    };
+    save("problem.toml", &|out| Ok(out.write_all(text::problem(options).as_bytes())?))?;
+    save("sections.csv", &|out| write_sections(out, network, options.kind, &bounds))?;
+    save("ribs.csv", &|out| write_ribs(out, network, options))?;
+    save("geometry.csv", &|out| write_geometry(out, network.ribs.iter().map(|rib| &rib.geometry)))?;
+    let mut lines: Vec<&str> = network.ribs.iter().map(|rib| rib.geometry.line.as_str()).collect();
+    lines.dedup();
+    Ok(Report {
+        ribs: network.ribs.len(),
+        sections: network.sections.len(),
+        variables: network.sections.len() * bounds.iter().filter(|b| b.lower < b.upper).count(),
+        lines: lines.len(),
+        length: network.ribs.iter().map(|rib| rib.geometry.length()).sum(),
+    })
+}
+
+fn checked_bounds(options: &Options) -> Result<Vec<Bounds>, RibsError> {
+    let positive = |name: &str, value: f64| {
+        let good = value > 0.0 && value.is_finite();
+        if good { Ok(()) } else { Err(RibsError::NotPositive { name: name.into(), value }) }
+    };
+    positive("the elastic modulus", options.elastic_modulus)?;
+    positive("the load", options.load)?;
+    positive("the sag ratio", options.sag_ratio)?;
+    positive("the slenderness", options.slenderness)?;
+    positive("the taper slope", options.taper_slope)?;
+    let mut bounds = options.kind.dimensions();
+    for own in &options.bounds {
+        positive(&format!("the lower bound of {}", own.dimension), own.lower)?;
+        positive(&format!("the upper bound of {}", own.dimension), own.upper)?;
+        if own.lower > own.upper {
+            return Err(RibsError::Crossed { dimension: own.dimension.clone(), lower: own.lower, upper: own.upper });
+        }
+        let known = bounds.iter().map(|b| b.dimension.clone()).collect::<Vec<_>>().join(", ");
+        let slot = bounds.iter_mut().find(|b| b.dimension == own.dimension);
+        *slot.ok_or_else(|| unknown(options.kind, own, known))? = own.clone();
+    }
+    Ok(bounds)
+}
+
+fn unknown(kind: SectionKind, own: &Bounds, known: String) -> RibsError {
+    RibsError::UnknownDimension { kind: kind.name(), dimension: own.dimension.clone(), known }
+}
+
+fn write_sections(out: &mut dyn Write, network: &Network, kind: SectionKind, bounds: &[Bounds]) -> Result<(), csv::Error> {
+    let mut table = csv::Writer::from_writer(out);
+    let columns = bounds.iter().flat_map(|b| ["lower", "upper", "start"].map(|part| format!("{}.{part}", b.dimension)));
+    table.write_record(["name".into(), "kind".into()].into_iter().chain(columns))?;
+    for name in &network.sections {
+        let cells = bounds.iter().flat_map(|b| [b.lower, b.upper, b.start].map(|value| value.to_string()));
+        table.write_record([name.clone(), kind.name().into()].into_iter().chain(cells))?;
+    }
+    Ok(table.flush()?)
+}
+
+fn write_ribs(out: &mut dyn Write, network: &Network, options: &Options) -> Result<(), csv::Error> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(["name", "from", "to", "length", "volume", "line", "span", "sag"])?;
+    let law = if options.prismatoid { "prismatoid" } else { "frustum" };
+    for rib in &network.ribs {
+        let section = |end: usize| network.sections[rib.sections[end] as usize].as_str();
+        let (length, span, sag) = (rib.geometry.length().to_string(), span(rib).to_string(), sag(rib).to_string());
+        let (name, line) = (rib.geometry.name.as_str(), rib.geometry.line.as_str());
+        table.write_record([name, section(0), section(1), &length, law, line, &span, &sag])?;
+    }
+    Ok(table.flush()?)
+}
+
+/// The span of the rib's line as a beam.
+fn span(rib: &Rib) -> f64 {
+    if rib.closed { rib.line_length / 2.0 } else { rib.line_length }
+}
+
+/// ∫ M·m ds over the rib, with M = s(S−s)/2 under a unit line load and m = min(s, S−s)/2 under a unit load at midspan;
+/// Simpson's rule over eight parts.
+fn sag(rib: &Rib) -> f64 {
+    let span = span(rib);
+    let product = |s: f64| {
+        let s = if rib.closed { s % span } else { s.clamp(0.0, span) };
+        s * (span - s) / 2.0 * s.min(span - s) / 2.0
+    };
+    let (from, step) = (rib.s[0], (rib.s[1] - rib.s[0]) / 8.0);
+    let weight = |k: u32| if k == 0 || k == 8 { 1.0 } else { 2.0 + 2.0 * f64::from(k % 2) };
+    (0..=8).map(|k| weight(k) * product(from + step * f64::from(k))).sum::<f64>() * step / 3.0
+}
+
+#[cfg(test)]
+mod tests;

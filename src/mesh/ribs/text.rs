@@ -1,0 +1,47 @@
+//! The text of problem.toml.
+
+use std::fmt::Write;
+
+use super::{Options, SectionKind};
+
+/// Limits as (name, scope, requirement). Heights are `height`, which every kind offers.
+fn limits(options: &Options) -> Vec<(&'static str, &'static str, String)> {
+    let sag = "sum(ribs: load*sag/E*0.5*(1/from.Ix + 1/to.Ix)/(span/sag_ratio)) <= 1";
+    let mut limits = vec![("stiffness", "for = \"ribs\"\nby = \"line\"", sag.to_string())];
+    match options.kind {
+        SectionKind::Rectangle => limits.push(("slenderness", "for = \"sections\"", "h <= slenderness*b".into())),
+        SectionKind::HBeam => limits.extend([
+            ("web-slenderness", "for = \"sections\"", "hw <= 5*slenderness*tw".into()),
+            ("flange-slenderness", "for = \"sections\"", "b <= 4*slenderness*tf".into()),
+            ("thickness", "for = \"sections\"", "tw <= tf".into()),
+        ]),
+    }
+    limits.extend([
+        ("taper-up", "for = \"ribs\"", "to.height - from.height <= taper_slope*length".into()),
+        ("taper-down", "for = \"ribs\"", "from.height - to.height <= taper_slope*length".into()),
+    ]);
+    limits
+}
+
+/// problem.toml for these options; numbers are written so that they read back bit for bit.
+pub(super) fn problem(options: &Options) -> String {
+    let mut text = String::new();
+    // A JSON string is a TOML basic string.
+    let title = serde_json::Value::from(options.title.as_str());
+    let parameters = [
+        ("E", options.elastic_modulus),
+        ("load", options.load),
+        ("sag_ratio", options.sag_ratio),
+        ("slenderness", options.slenderness),
+        ("taper_slope", options.taper_slope),
+    ];
+    let _ = write!(text, "title = {title}\nminimize = \"volume\"\n\n[parameters]\n");
+    for (name, value) in parameters {
+        let _ = writeln!(text, "{name} = {value:?}");
+    }
+    for (name, scope, require) in limits(options) {
+        let _ = write!(text, "\n[[constraints]]\nname = \"{name}\"\n{scope}\nrequire = \"{require}\"\n");
+    }
+    text.push_str("\n[tables]\nsections = \"sections.csv\"\nribs = \"ribs.csv\"\n");
+    text
+}
