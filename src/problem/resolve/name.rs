@@ -214,7 +214,10 @@ impl<'a> Resolver<'a, '_> {
         }
         match self.cell(Collection::Sections, s, name, span) {
             Some(value) => value,
-            None => self.no_property(name, Some(kind.name()), kind.properties().to_vec(), span),
+            None => {
+                let others = kind.properties().iter().copied().filter(|known| *known != name).collect();
+                self.no_property(name, Some(kind.name()), others, span)
+            }
         }
     }
 
