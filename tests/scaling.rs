@@ -1,9 +1,9 @@
 //! The same design in other units, with rows and variables of extreme size, and with an offset on the objective.
 
-mod support;
+mod whole_program;
 
 use serde_json::Value;
-use support::solve;
+use whole_program::solve;
 
 fn value(result: &Value, name: &str) -> f64 {
     result["variables"][name].as_f64().unwrap()

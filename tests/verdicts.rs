@@ -1,12 +1,12 @@
 //! Verdicts as a user meets them: small files, the whole program, exit codes and what is said.
 
-mod support;
+mod whole_program;
 
 use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
-use support::{solve, solve_with};
+use whole_program::{solve, solve_with};
 use tempfile::TempDir;
 
 /// A file from an objective, lines of variables, and requirements named r1, r2, ….

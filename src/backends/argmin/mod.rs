@@ -2,6 +2,7 @@
 //! our own, watched by an argmin observer.
 
 mod augmented_lagrangian;
+mod components;
 mod interior_point;
 mod opinions;
 mod state;
@@ -19,6 +20,7 @@ use argmin::core::{Executor, Solver};
 use super::{Backend, Iteration, Job, Solution, Termination};
 use crate::model::{EvaluationError, Evaluator, Model};
 use augmented_lagrangian::AugmentedLagrangian;
+use components::Components;
 use interior_point::InteriorPoint;
 use state::{Conclusion, NlpState, Watch};
 
@@ -55,6 +57,12 @@ impl Backend for Argmin {
         let evaluator = Evaluator::new(model, job.budget);
         let (algorithm, finished) = match job.algorithm {
             AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, augmented_lagrangian(&evaluator, job)),
+            _ if job.start_multipliers.is_none()
+                && let Some(pieces) = components::fall_apart(&evaluator) =>
+            {
+                let solver = Components::new(pieces.as_ref(), &evaluator, job.start);
+                (INTERIOR_POINT, run(solver, &evaluator, job))
+            }
             _ => {
                 let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
                 let found = run(solver, &evaluator, job);

@@ -117,6 +117,18 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
     }
 }
 
+/// Runs to the end without an executor, for components of a larger model. `None`: no minimum was reached.
+pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point> {
+    let mut engine = Engine::new(Source::Given(model), Beginning::at(start)).ok()?;
+    let ending = loop {
+        if let Some(ending) = engine.step().ok()? {
+            break ending;
+        }
+    };
+    let (_, point) = engine.conclude(&ending);
+    matches!(ending, Ending::Optimal | Ending::Acceptable).then_some(point)
+}
+
 fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
     problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }
