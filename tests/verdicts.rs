@@ -6,8 +6,8 @@ use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
-use whole_program::{solve, solve_with};
 use tempfile::TempDir;
+use whole_program::{solve, solve_with};
 
 /// A file from an objective, lines of variables, and requirements named r1, r2, ….
 fn problem(objective: &str, variables: &str, rows: &[&str]) -> String {
