@@ -55,8 +55,28 @@ fn falls_for_ever(point: &Point<'_>, variables: &[usize], way: f64, tolerance: f
         }
     }
     let fall = point.objective - last;
+    let far_and_level = fall == 0.0 && way > 100.0;
     fall > 64.0 * f64::EPSILON * point.objective.abs()
-        || (fall == 0.0 && way > 100.0 && value(-0.5).is_some_and(|f| f > point.objective))
+        || (far_and_level && value(-0.5).is_some_and(|f| f > point.objective))
+        || (far_and_level && slopes_down(point, variables) && rises_behind(point, way, value))
+}
+
+/// Whether the objective's exact slope still points onwards, however small it has become: no valley that is level throughout.
+fn slopes_down(point: &Point<'_>, variables: &[usize]) -> bool {
+    variables.iter().all(|&j| point.gradient[j] * (point.x[j] - point.meta().start[j]) < 0.0)
+}
+
+/// Whether the objective, going back decade by decade, never falls and rises in the end.
+fn rises_behind(point: &Point<'_>, way: f64, value: impl Fn(f64) -> Option<f64>) -> bool {
+    let mut last = point.objective;
+    for decade in 1..=(way.log10() as i32) {
+        match value(10f64.powi(-decade) - 1.0) {
+            Some(next) if next >= last => last = next,
+            Some(_) => return false,
+            None => break,
+        }
+    }
+    last > point.objective
 }
 
 /// f(x) where x meets every row as well as the judged point may.

@@ -33,6 +33,12 @@ fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
     let (sections, ribs) = (subject.problem().sections.names.len(), subject.problem().ribs.names.len());
     writeln!(out, "{} ({}): no mistakes", about.title, about.file)?;
     writeln!(out, "class: {}", subject.class)?;
+    let misses = [("a geometric program", &subject.not_geometric), ("convex", &subject.not_convex)];
+    for (class, reason) in misses {
+        if let Some(reason) = reason.as_ref().filter(|_| !subject.class.is_global()) {
+            writeln!(out, "  not shown to be {class}: {reason}")?;
+        }
+    }
     writeln!(out, "{}, {}", count(sections, "section"), count(ribs, "rib"))?;
     writeln!(out, "{}, {fixed} of them fixed", count(meta.variables(), "variable"))?;
     writeln!(out, "{}: {equalities} equalities, {linear} linear", count(meta.rows(), "constraint row"))?;

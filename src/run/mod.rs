@@ -6,6 +6,7 @@ pub mod choice;
 pub mod compare;
 pub mod folder;
 pub mod solve;
+pub mod start;
 pub mod subject;
 pub mod verify;
 

@@ -10,7 +10,7 @@ mod survey;
 mod template;
 mod walk;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
@@ -217,5 +217,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         objective_groups,
         row_groups,
         row_origin: rows.origin,
+        members: OnceLock::new(),
     }
 }
