@@ -44,7 +44,7 @@ fn gradient(bencher: Bencher, ribs: usize, kind: Kind) {
 fn hessian(bencher: Bencher, ribs: usize, kind: Kind) {
     let multipliers = vec![1.0; ribs + 1];
     measured(bencher, ribs, kind, |model, values| {
-        values.resize(model.meta().hessian.entries(), 0.0);
+        values.resize(model.meta().hessian.len(), 0.0);
         model.hessian(&model.meta().start, 1.0, &multipliers, values).expect("a Hessian at the start");
     });
 }
