@@ -37,6 +37,11 @@ impl Affine {
                 let ends = if *end == End::From { &problem.ribs.from } else { &problem.ribs.to };
                 Affine::of_property(problem, *ends.get(r as usize)?, &property.0)
             }
+            Formula::Profile(profile, at) => {
+                let s = Evaluation::constants(problem).value(at, item)?;
+                let terms = problem.profiles.get(*profile as usize)?.weights(s)?;
+                Some(Affine { constant: 0.0, terms })
+            }
             Formula::Unary(Unary::Negate, operand) => Some(part(operand)?.scaled(-1.0)),
             Formula::Binary(op, left, right) => join(*op, part(left)?, part(right)?),
             Formula::Fold(Fold::Sum, list) => {

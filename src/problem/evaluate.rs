@@ -70,6 +70,10 @@ impl<'a> Evaluation<'a> {
                 Item::None => None,
             },
             Formula::EndData(end, column) => number(self.problem.sections.data.get(*column as usize)?, self.end(*end, item)?),
+            Formula::Profile(profile, at) => {
+                let (s, profile) = (self.value(at, item)?, self.problem.profiles.get(*profile as usize)?);
+                profile.weights(s)?.into_iter().map(|(j, weight)| Some(weight * self.variable(j)?)).sum()
+            }
             Formula::Unary(op, operand) => Some(op.evaluate(self.value(operand, item)?)),
             Formula::Binary(op, left, right) => Some(op.evaluate(self.value(left, item)?, self.value(right, item)?)),
             Formula::Fold(fold, list) => join(*fold, list.iter().map(|part| self.value(part, item))),

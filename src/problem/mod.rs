@@ -14,6 +14,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+pub mod profile;
 mod ratio;
 pub mod resolve;
 pub mod settings;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 use crate::sections;
 pub use collections::sections_form;
 pub use formula::{Formula, Property};
+pub use profile::Profile;
 pub use settings::Settings;
 
 /// Everything a problem file says, checked.
@@ -45,6 +47,8 @@ pub struct Problem {
     pub definitions: Vec<(String, Formula)>,
     /// Formulas of computed section dimensions, pointed at by [`Dimension::Formula`].
     pub dimension_formulas: Vec<Formula>,
+    /// `[profiles]`; their control values are variables.
+    pub profiles: Vec<Profile>,
     /// Cross-sections.
     pub sections: Sections,
     /// Ribs.

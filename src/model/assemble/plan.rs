@@ -73,7 +73,8 @@ impl Plan {
                 (self.from, self.to) = (true, true);
                 self.number(OwnNumber::Length);
             }
-            Formula::RibVolume(_) | Formula::Volume(_) | Formula::Over { .. } => self.shareable = false,
+            // A profile's weights and even its variables differ from item to item.
+            Formula::RibVolume(_) | Formula::Volume(_) | Formula::Over { .. } | Formula::Profile(..) => self.shareable = false,
         }
     }
 
