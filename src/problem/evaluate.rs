@@ -26,12 +26,12 @@ impl Item {
     }
 }
 
-/// Evaluates without a model: constants only, or with the variables at their starts.
+/// Evaluates without a model: constants only, or with the variables at a point.
 pub struct Evaluation<'a> {
     /// The problem.
     pub problem: &'a Problem,
-    /// True: variables have their starting values. False: what depends on a variable has no value.
-    pub at_start: bool,
+    /// Values of the variables; without them, what depends on a variable has no value.
+    pub x: Option<&'a [f64]>,
     /// The members of the row's group.
     pub group: Option<&'a [u32]>,
 }
@@ -39,12 +39,17 @@ pub struct Evaluation<'a> {
 impl<'a> Evaluation<'a> {
     /// Values of what depends on no variable.
     pub fn constants(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: false, group: None }
+        Evaluation { problem, x: None, group: None }
     }
 
     /// Values at the starting point.
     pub fn at_start(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: true, group: None }
+        Evaluation::at(problem, &problem.variables.start)
+    }
+
+    /// Values at a point.
+    pub fn at(problem: &'a Problem, x: &'a [f64]) -> Self {
+        Evaluation { problem, x: Some(x), group: None }
     }
 
     /// The value; `None` where it depends on a variable, on a volume or on an empty cell.
@@ -94,12 +99,13 @@ impl<'a> Evaluation<'a> {
     }
 
     fn variable(&self, j: u32) -> Option<f64> {
-        if self.at_start { self.problem.variables.start.get(j as usize).copied() } else { None }
+        self.x?.get(j as usize).copied()
     }
 
     fn definition(&self, d: u32) -> Option<f64> {
         // Constant definitions were folded where they are used.
-        if self.at_start { self.value(&self.problem.definitions.get(d as usize)?.1, Item::None) } else { None }
+        self.x?;
+        self.value(&self.problem.definitions.get(d as usize)?.1, Item::None)
     }
 
     fn end(&self, end: End, item: Item) -> Option<u32> {
