@@ -29,12 +29,12 @@ impl Item {
     }
 }
 
-/// Evaluates without a model: constants only, or with the variables at their starts.
+/// Evaluates without a model: constants only, or with the variables at a point.
 pub struct Evaluation<'a> {
     /// The problem.
     pub problem: &'a Problem,
-    /// True: variables have their starting values. False: what depends on a variable has no value.
-    pub at_start: bool,
+    /// Values of the variables; without them, what depends on a variable has no value.
+    pub x: Option<&'a [f64]>,
     /// The members of the row's group.
     pub group: Option<&'a [u32]>,
     /// Definitions and links evaluated so far: they may share one another many times over.
@@ -52,7 +52,7 @@ enum Named {
 impl<'a> Evaluation<'a> {
     /// Values of what depends on no variable.
     pub fn constants(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: false, group: None, known: RefCell::default() }
+        Evaluation { problem, x: None, group: None, known: RefCell::default() }
     }
 
     /// Values of what depends on no variable, in a row of this group.
@@ -62,7 +62,12 @@ impl<'a> Evaluation<'a> {
 
     /// Values at the starting point.
     pub fn at_start(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: true, group: None, known: RefCell::default() }
+        Evaluation::at(problem, &problem.variables.start)
+    }
+
+    /// Values at a point.
+    pub fn at(problem: &'a Problem, x: &'a [f64]) -> Self {
+        Evaluation { problem, x: Some(x), group: None, known: RefCell::default() }
     }
 
     /// The value; `None` where it depends on a variable, on a volume or on an empty cell.
@@ -112,12 +117,12 @@ impl<'a> Evaluation<'a> {
     }
 
     fn variable(&self, j: u32) -> Option<f64> {
-        if self.at_start { self.problem.variables.start.get(j as usize).copied() } else { None }
+        self.x?.get(j as usize).copied()
     }
 
     fn definition(&self, d: u32) -> Option<f64> {
         // Constant definitions were folded where they are used.
-        if self.at_start {
+        if self.x.is_some() {
             self.named(Named::Definition(d), &self.problem.definitions.get(d as usize)?.1, Item::None)
         } else {
             None
