@@ -66,12 +66,42 @@ fn ribs_of(kind: &str, dimensions: &str, properties: &[&str]) -> String {
 #[test]
 fn every_parametrisation_of_the_h_beam_has_exact_derivatives_and_one_volume() {
     let forms = [
-        ["tw = {lower=4e-3,upper=6e-3}", "hw = {lower=0.2,upper=0.21}", "b = {lower=0.1,upper=0.2}", "tf = {lower=9e-3,upper=1e-2}"],
-        ["tw = {lower=4e-3,upper=6e-3}", "hw = {lower=0.2,upper=0.21}", "b = {lower=0.1,upper=0.2}", "h = {lower=0.22,upper=0.24}"],
-        ["tw = {lower=4e-3,upper=6e-3}", "h = {lower=0.22,upper=0.24}", "b = {lower=0.1,upper=0.2}", "tf = {lower=9e-3,upper=1e-2}"],
-        ["b1 = {lower=4e-3,upper=6e-3}", "h1 = {lower=0.2,upper=0.21}", "b2 = {lower=0.1,upper=0.2}", "t = {lower=2e-2,upper=3e-2}"],
-        ["b1 = {lower=4e-3,upper=6e-3}", "h1 = {lower=0.2,upper=0.21}", "b2 = {lower=0.1,upper=0.2}", "h2 = {lower=0.22,upper=0.24}"],
-        ["b1 = {lower=4e-3,upper=6e-3}", "h2 = {lower=0.22,upper=0.24}", "b2 = {lower=0.1,upper=0.2}", "t = {lower=2e-2,upper=3e-2}"],
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "hw = {lower=0.2,upper=0.21}",
+            "b = {lower=0.1,upper=0.2}",
+            "tf = {lower=9e-3,upper=1e-2}",
+        ],
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "hw = {lower=0.2,upper=0.21}",
+            "b = {lower=0.1,upper=0.2}",
+            "h = {lower=0.22,upper=0.24}",
+        ],
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "h = {lower=0.22,upper=0.24}",
+            "b = {lower=0.1,upper=0.2}",
+            "tf = {lower=9e-3,upper=1e-2}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h1 = {lower=0.2,upper=0.21}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "t = {lower=2e-2,upper=3e-2}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h1 = {lower=0.2,upper=0.21}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "h2 = {lower=0.22,upper=0.24}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h2 = {lower=0.22,upper=0.24}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "t = {lower=2e-2,upper=3e-2}",
+        ],
     ];
     for form in forms {
         let text = ribs_of("h-beam", &form.join("\n"), &["A", "Ix", "Iy", "Wx", "Wy", "tf"]);
@@ -106,7 +136,9 @@ fn class(text: &str) -> Class {
 #[test]
 fn classes_are_proved_by_structure() {
     let problem = |objective: &str, row: &str| {
-        format!("minimize = \"{objective}\"\n[variables]\nx = {{lower=0.1,upper=9}}\ny = {{lower=0.1,upper=9}}\n[definitions]\ng = \"x - 2*y\"\n[[constraints]]\nname = \"row\"\nrequire = \"{row}\"\n")
+        format!(
+            "minimize = \"{objective}\"\n[variables]\nx = {{lower=0.1,upper=9}}\ny = {{lower=0.1,upper=9}}\n[definitions]\ng = \"x - 2*y\"\n[[constraints]]\nname = \"row\"\nrequire = \"{row}\"\n"
+        )
     };
     assert_eq!(class(&problem("x + 2*y", "x - y <= 3")), Class::Linear);
     assert_eq!(class(&problem("x*y + x/y", "x*y^3/12 >= 2")), Class::GeometricProgram);
@@ -123,7 +155,8 @@ fn rectangles_are_geometric_programs_and_h_beams_with_stiffness_are_not() {
     let rectangle = ribs_of("rectangle", "b = {lower=0.1,upper=0.3}\nh = {lower=0.2,upper=0.5}", &["A", "Ix", "Wy"]);
     let first = |text: &str| text.split("[[constraints]]\nname = \"line\"").next().unwrap().to_string();
     assert_eq!(class(&first(&rectangle)), Class::GeometricProgram);
-    let h_beam = "tw = {lower=4e-3,upper=6e-3}\nhw = {lower=0.2,upper=0.3}\nb = {lower=0.1,upper=0.2}\ntf = {lower=9e-3,upper=1e-2}";
+    let h_beam =
+        "tw = {lower=4e-3,upper=6e-3}\nhw = {lower=0.2,upper=0.3}\nb = {lower=0.1,upper=0.2}\ntf = {lower=9e-3,upper=1e-2}";
     assert_eq!(class(&first(&ribs_of("h-beam", h_beam, &[]))), Class::GeometricProgram);
     let stiff = model(&first(&ribs_of("h-beam", h_beam, &["Ix"])));
     let classification = classify(&stiff).unwrap();

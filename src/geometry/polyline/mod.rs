@@ -94,6 +94,15 @@ struct Sides {
     right: Vec<Vec<OffsetVertex>>,
 }
 
+/// One side of a segment.
+struct SideLength {
+    segment: usize,
+    /// Of the segment itself.
+    length: f64,
+    /// What the corners add: thicknesses and their factors.
+    terms: Vec<(usize, f64)>,
+}
+
 impl Centreline {
     /// From its points. A closed line runs from the last point back to the first; a last point that repeats the first closes it too.
     ///
@@ -124,7 +133,7 @@ impl Centreline {
     /// # Errors
     /// A limit below 1.
     pub fn with_miter_limit(mut self, limit: f64) -> Result<Self, PolylineError> {
-        if !(limit >= 1.0) {
+        if limit.is_nan() || limit < 1.0 {
             return Err(PolylineError::MiterLimit { value: limit });
         }
         self.miter_limit = limit;
@@ -247,18 +256,18 @@ impl Centreline {
     /// How long the two sides of the outline are along each segment, linear in the thicknesses: a length and terms (segment, factor).
     /// Where one is not positive the outline folds over.
     pub fn sides_along(&self, stepped: bool) -> Vec<(f64, Vec<(usize, f64)>)> {
-        self.lengths(&self.sides(|_, _| stepped)).into_iter().map(|(_, length, terms)| (length, terms)).collect()
+        self.lengths(&self.sides(|_, _| stepped)).into_iter().map(|side| (side.length, side.terms)).collect()
     }
 
-    /// Segment, its length, and what its corners add on one side.
-    fn lengths(&self, sides: &Sides) -> Vec<(usize, f64, Vec<(usize, f64)>)> {
+    fn lengths(&self, sides: &Sides) -> Vec<SideLength> {
         let mut found = Vec::new();
         for segment in 0..self.segments() {
             let [x, y] = unit(self.ends(segment));
             let along = |vertex: &OffsetVertex, sign: f64| vertex.terms.map(|(by, v)| (by, sign * (v[0] * x + v[1] * y)));
             for side in [&sides.left, &sides.right] {
                 let (Some(from), Some(to)) = (side[segment].last(), side[(segment + 1) % side.len()].first()) else { continue };
-                found.push((segment, self.segment_length(segment), [along(from, -1.0), along(to, 1.0)].concat()));
+                let terms = [along(from, -1.0), along(to, 1.0)].concat();
+                found.push(SideLength { segment, length: self.segment_length(segment), terms });
             }
         }
         found
@@ -267,8 +276,8 @@ impl Centreline {
     /// Both sides of every segment must still run its way.
     fn fold_over(&self, sides: &Sides, each: &[f64]) -> Result<(), PolylineError> {
         let lost = |terms: &[(usize, f64)]| terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
-        match self.lengths(sides).iter().find(|(_, length, terms)| length + lost(terms) <= 0.0) {
-            Some((segment, ..)) => Err(PolylineError::FoldOver { segment: segment + 1 }),
+        match self.lengths(sides).iter().find(|side| side.length + lost(&side.terms) <= 0.0) {
+            Some(side) => Err(PolylineError::FoldOver { segment: side.segment + 1 }),
             None => Ok(()),
         }
     }
