@@ -187,7 +187,10 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, d)| most.max(f64::EPSILON * sum * d / point.sigma))
+    // A variable that is zero but for rounding has no size of its own.
+    let largest = point.d.iter().fold(0.0, |most: f64, d| most.max(*d));
+    let size = |d: f64| if d < f64::EPSILON * largest { largest } else { d };
+    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * size(d) / point.sigma))
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

@@ -13,7 +13,9 @@ pub(super) struct Declaration {
     /// The sense and the expression; no expression where it is of a wrong type.
     pub objective: Option<(Sense, Option<Written>)>,
     pub parameters: Vec<(Name, Numbers)>,
+    /// `[variables]`, then the control values of `[profiles]`.
     pub variables: Vec<VariableEntry>,
+    pub profiles: Vec<ProfileEntry>,
     pub definitions: Vec<(Name, Scalar)>,
     pub sections: Vec<SectionEntry>,
     pub ribs: Vec<RibEntry>,
@@ -56,11 +58,35 @@ pub(super) struct VariableEntry {
     pub range: Range<Numbers>,
 }
 
+/// An entry of `[profiles]`.
+pub(super) struct ProfileEntry {
+    pub name: Name,
+    /// Its control values among [`Declaration::variables`].
+    pub variable: usize,
+    pub degree: Degree,
+    pub knots: Option<(Vec<Scalar>, Place)>,
+}
+
+/// A profile's degree.
+pub(super) enum Degree {
+    /// By its kind.
+    Fixed(u32),
+    /// As given.
+    Given(Scalar),
+}
+
+/// `points = [[x, y], …]`: numbers or constant expressions.
+pub(super) struct PointsEntry {
+    pub list: Vec<[Scalar; 2]>,
+    pub place: Place,
+}
+
 /// An entry of `[sections]`.
 pub(super) struct SectionEntry {
     pub name: Name,
     /// `None` where it is missing (already a mistake).
     pub kind: Option<Written>,
+    pub points: Option<PointsEntry>,
     pub dimensions: Vec<(Name, DimensionEntry)>,
     pub data: Vec<(Name, Datum)>,
 }

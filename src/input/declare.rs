@@ -1,10 +1,13 @@
 //! Walks the file's tables into a [`Declaration`].
 
 mod constraints;
+mod profiles;
 mod settings;
 mod shapes;
 
 use toml::de::DeTable;
+
+pub(super) use profiles::{DEFAULT_DEGREE, KINDS as PROFILE_KINDS};
 
 use super::declaration::{Declaration, Name, Numbers, Range, VariableEntry};
 use super::fields::{Field, Fields, Reader, Scalar};
@@ -25,6 +28,11 @@ pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
     }
     for field in named(&mut top, "variables", reader) {
         declared.variables.extend(variable(&field, reader));
+    }
+    for field in named(&mut top, "profiles", reader) {
+        let (profile, controls) = profiles::profile(&field, declared.variables.len(), reader);
+        declared.profiles.extend(profile);
+        declared.variables.push(controls);
     }
     for field in named(&mut top, "definitions", reader) {
         declared.definitions.extend(field.scalar(reader).map(|value| (name(&field), value)));

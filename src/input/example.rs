@@ -7,6 +7,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("ribs", include_str!("examples/ribs.toml")),
     ("rectangle", include_str!("examples/rectangle.toml")),
     ("h-beam", include_str!("examples/h-beam.toml")),
+    ("sections", include_str!("examples/sections.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
 ];
 

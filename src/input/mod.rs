@@ -11,6 +11,7 @@ mod fields;
 mod findings;
 mod load;
 mod mistake;
+mod points;
 mod schema;
 mod source;
 mod table;
@@ -26,6 +27,7 @@ pub use example::{example, examples};
 use fields::Reader;
 use findings::Findings;
 pub use mistake::{Mistake, Mistakes, render};
+pub use points::points;
 pub use schema::schema;
 use source::{Place, Source};
 

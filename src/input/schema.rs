@@ -2,8 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
+use super::declare::{DEFAULT_DEGREE, PROFILE_KINDS};
 use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
-use crate::sections;
+use crate::sections::{self, Form};
 
 /// The schema (JSON Schema, draft 2020-12). Section kinds and their dimensions come from [`sections::KINDS`].
 ///
@@ -24,6 +25,7 @@ pub fn schema() -> Value {
             "units": map_of(json!({ "type": "string" }), "Labels for reports, such as length = \"m\"."),
             "parameters": map_of(one_or_many(), "Constants: numbers, arrays, or expressions in other parameters."),
             "variables": map_of(variable(), "Free design variables."),
+            "profiles": map_of(profile(), "B-splines of few control values along a line, used as profile(NAME, s)."),
             "definitions": map_of(scalar("An expression."), "Names for expressions, in any order, without circles."),
             "sections": map_of(section(), "Cross-sections."),
             "ribs": { "type": "array", "items": rib() },
@@ -69,26 +71,58 @@ fn variable() -> Value {
     )
 }
 
+fn profile() -> Value {
+    let kinds: Vec<&str> = PROFILE_KINDS.iter().map(|(kind, _)| *kind).collect();
+    object(
+        json!({
+            "kind": { "enum": kinds, "default": "b-spline", "description": "constant: 1 control value; linear: 2." },
+            "degree": json!({ "type": ["integer", "string"], "minimum": 0, "default": DEFAULT_DEGREE }),
+            "control": variable(),
+            "knots": { "type": "array", "items": { "type": ["number", "string"] },
+                "description": "size + degree + 1 knots rising from 0 to 1; uniform and clamped if left out." },
+        }),
+        &["control"],
+    )
+}
+
 fn data() -> Value {
     map_of(json!({ "type": ["number", "string"] }), "Further numbers, or text for grouping.")
 }
 
-/// One alternative per form of every kind.
+/// One alternative per form of every kind; forms that number a dimension (`thickness[1]`, …) are one, with an array.
 fn section() -> Value {
     let own = object(json!({ "lower": scalar("Lower bound."), "upper": scalar("Upper bound."), "start": scalar("Start.") }), &[]);
     let dimension = json!({
         "anyOf": [scalar("A fixed number, or an expression."), own],
         "description": "A number (fixed), bounds and start (a variable), or an expression.",
     });
-    let alternatives = sections::forms().map(|(kind, form)| {
+    let whole = |form: &Form| form.dimensions.len() < 2 || form.dimensions.iter().all(|name| list_name(name).is_none());
+    let alternatives = sections::forms().filter(|(_, form)| whole(form)).map(|(kind, form)| {
         let mut properties = Map::new();
         properties.insert("kind".into(), json!({ "const": kind.name() }));
         properties.insert("data".into(), data());
-        properties.extend(form.dimensions.iter().map(|name| ((*name).to_owned(), dimension.clone())));
-        let required: Vec<&str> = std::iter::once("kind").chain(form.dimensions.iter().copied()).collect();
-        object(Value::Object(properties), &required)
+        if kind.has_outline() {
+            properties.insert("points".into(), points());
+        }
+        let names = form.dimensions.iter().map(|name| list_name(name).unwrap_or(name));
+        properties.extend(form.dimensions.iter().map(|name| match list_name(name) {
+            Some(list) => (list.to_owned(), json!({ "type": "array", "items": dimension, "minItems": 1 })),
+            None => ((*name).to_owned(), dimension.clone()),
+        }));
+        let required = ["kind"].into_iter().chain(kind.has_outline().then_some("points")).chain(names);
+        object(Value::Object(properties), &required.collect::<Vec<_>>())
     });
     json!({ "anyOf": alternatives.collect::<Vec<Value>>() })
+}
+
+/// `thickness` of `thickness[2]`.
+fn list_name(dimension: &str) -> Option<&str> {
+    dimension.strip_suffix(']')?.split_once('[').map(|(list, _)| list)
+}
+
+fn points() -> Value {
+    let pair = json!({ "type": "array", "items": { "type": ["number", "string"] }, "minItems": 2, "maxItems": 2 });
+    json!({ "type": "array", "items": pair, "minItems": 2, "description": "Corners [x, y] in order; numbers or constant expressions." })
 }
 
 fn rib() -> Value {
@@ -154,7 +188,8 @@ mod tests {
     fn every_form_is_an_alternative() {
         let alternatives = schema()["properties"]["sections"]["additionalProperties"]["anyOf"].clone();
         let count = alternatives.as_array().map_or(0, Vec::len);
-        assert_eq!(count, sections::forms().count());
+        let numbered = sections::forms().filter(|(_, form)| form.dimensions.contains(&"thickness[2]")).count();
+        assert_eq!(count, sections::forms().count() - numbered);
         assert_eq!(alternatives[0]["required"], json!(["kind", "b", "h"]));
     }
 }

@@ -62,8 +62,8 @@ impl Banded {
     /// [`Singular`].
     pub fn solve<const D: usize>(mut self, x: &mut [[f64; D]]) -> Result<(), Singular> {
         debug_assert_eq!(x.len(), self.n);
-        let sizes: Vec<f64> = (0..self.n).map(|i| self.row_size(i)).collect();
-        for (k, size) in sizes.into_iter().enumerate() {
+        let size: Vec<f64> = (0..self.n).map(|i| self.row_size(i)).collect();
+        for (k, size) in size.into_iter().enumerate() {
             let pivot = self.entries[self.at(k, k)];
             // `>` also catches NaN.
             if !(pivot.abs() > f64::EPSILON * f64::EPSILON * size && pivot.is_finite()) {
@@ -92,8 +92,8 @@ impl Banded {
             let (target, source) = (self.at(i, j), self.at(k, j));
             self.entries[target] -= factor * self.entries[source];
         }
-        let pivot_row = x[k];
-        for (target, source) in x[i].iter_mut().zip(pivot_row) {
+        let source = x[k];
+        for (target, source) in x[i].iter_mut().zip(source) {
             *target -= factor * source;
         }
     }
@@ -101,12 +101,11 @@ impl Banded {
     fn substitute<const D: usize>(&self, x: &mut [[f64; D]]) {
         for k in (0..self.n).rev() {
             let mut row = x[k];
-            for j in k + 1..self.n.min(k + self.upper + 1) {
-                let entry = self.entries[self.at(k, j)];
-                row.iter_mut().zip(x[j]).for_each(|(value, known)| *value -= entry * known);
+            for (j, known) in x.iter().enumerate().take(k + self.upper + 1).skip(k + 1) {
+                let factor = self.entries[self.at(k, j)];
+                row.iter_mut().zip(known).for_each(|(target, known)| *target -= factor * known);
             }
-            let pivot = self.entries[self.at(k, k)];
-            x[k] = row.map(|value| value / pivot);
+            x[k] = row.map(|value| value / self.entries[self.at(k, k)]);
         }
     }
 }

@@ -106,6 +106,11 @@ pub trait Model: Sync {
     fn row_name(&self, i: usize) -> String {
         format!("c{}", i + 1)
     }
+
+    /// Where row i is declared, ready to print (`file.toml:12`), where that is known.
+    fn row_place(&self, _i: usize) -> Option<String> {
+        None
+    }
 }
 
 /// Why a model gave no value.

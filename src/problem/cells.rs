@@ -47,7 +47,7 @@ impl Walk<'_> {
                 let sections = self.members.iter().filter_map(|&r| ends.get(r as usize).copied()).collect();
                 self.note(Collection::Sections, *column, sections);
             }
-            Formula::Unary(_, operand) => self.formula(operand),
+            Formula::Unary(_, operand) | Formula::Profile(_, operand) => self.formula(operand),
             Formula::Binary(_, left, right) => {
                 self.formula(left);
                 self.formula(right);

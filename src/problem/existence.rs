@@ -36,13 +36,13 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     found
 }
 
-/// The dimensions that must be positive: the given ones, and those of the kind that do not hang on a single given one.
+/// The dimensions that must be positive: the given ones, and those of the kind that are no mere multiple of a given one.
 fn needed(problem: &Problem, section: u32) -> impl Iterator<Item = &'static str> {
     let form = sections_form(problem, section as usize);
     let number = problem.sections.form[section as usize];
     let derived = sections::kind_of(number).positive().iter().copied().filter(move |name| {
         form.is_some_and(|form| !form.dimensions.contains(name))
-            && Affine::of_property(problem, section, name).is_some_and(|value| value.terms.len() > 1)
+            && Affine::of_property(problem, section, name).is_some_and(|value| value.terms.len() != 1 || value.constant != 0.0)
     });
     let given = form.into_iter().flat_map(|form| form.dimensions.iter().copied());
     given.chain(derived.collect::<Vec<_>>())

@@ -68,6 +68,9 @@ pub enum Formula {
     OwnData(u32),
     /// In a rib's scope: the number in a section data column at one end (`from.c`).
     EndData(End, u32),
+    /// `profile(depth, s)` where s follows from the item's data: a profile's number and its parameter, free of variables.
+    /// (With a constant s it is a [`Formula::Fold`] of control variables.)
+    Profile(u32, Box<Formula>),
     /// A function of one argument.
     Unary(Unary, Box<Formula>),
     /// An operator.

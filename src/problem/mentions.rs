@@ -8,6 +8,8 @@ use crate::expression::ast::{Ast, AstKind, Condition};
 pub struct Mention<'a> {
     /// Its dotted parts.
     pub parts: &'a [String],
+    /// Its index, where that is a number: 2 of `wall.thickness[2]`.
+    pub index: Option<u32>,
     /// Where it stands.
     pub span: Span,
     /// True inside a fold over ribs or sections, where the items' names hold.
@@ -31,9 +33,18 @@ impl<'a> Found<'a> {
     fn expression(&mut self, ast: &'a Ast) {
         match &ast.kind {
             AstKind::Number(_) | AstKind::Text(_) => {}
-            AstKind::Name(parts) => self.mentions.push(Mention { parts, span: ast.span, in_fold: self.depth > 0 }),
+            AstKind::Name(parts) => self.name(parts, None, ast.span),
             AstKind::Unary(_, operand) => self.expression(operand),
-            AstKind::Index(left, right) | AstKind::Binary(_, left, right) => {
+            AstKind::Index(base, index) => match (&base.kind, &index.kind) {
+                (AstKind::Name(parts), AstKind::Number(number)) => self.name(parts, Some(*number as u32), ast.span),
+                _ => {
+                    self.expression(base);
+                    self.expression(index);
+                }
+            },
+            // A profile's name is no name of the item's, whatever the item is.
+            AstKind::Call(name, list) if name == "profile" => list.iter().skip(1).for_each(|part| self.expression(part)),
+            AstKind::Binary(_, left, right) => {
                 self.expression(left);
                 self.expression(right);
             }
@@ -47,6 +58,10 @@ impl<'a> Found<'a> {
                 self.depth -= 1;
             }
         }
+    }
+
+    fn name(&mut self, parts: &'a [String], index: Option<u32>, span: Span) {
+        self.mentions.push(Mention { parts, index, span, in_fold: self.depth > 0 });
     }
 
     fn condition(&mut self, condition: &'a Condition) {

@@ -14,6 +14,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+pub mod profile;
 mod ratio;
 pub mod resolve;
 pub mod settings;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 use crate::sections;
 pub use collections::sections_form;
 pub use formula::{Formula, Property};
+pub use profile::Profile;
 pub use settings::Settings;
 
 /// Everything a problem file says, checked.
@@ -45,6 +47,8 @@ pub struct Problem {
     pub definitions: Vec<(String, Formula)>,
     /// Formulas of computed section dimensions, pointed at by [`Dimension::Formula`].
     pub dimension_formulas: Vec<Formula>,
+    /// `[profiles]`; their control values are variables.
+    pub profiles: Vec<Profile>,
     /// Cross-sections.
     pub sections: Sections,
     /// Ribs.
@@ -101,6 +105,13 @@ impl Problem {
     pub fn dimensions(&self, s: usize) -> &[Dimension] {
         let first = &self.sections.first_dimension;
         &self.sections.dimensions[first[s] as usize..first[s + 1] as usize]
+    }
+
+    /// The dimension of section `s` given under this name; `None` for derived dimensions and properties.
+    pub fn given_dimension(&self, s: u32, name: &str) -> Option<Dimension> {
+        let form = sections_form(self, s as usize)?;
+        let at = form.dimensions.iter().position(|given| *given == name)?;
+        self.dimensions(s as usize).get(at).copied()
     }
 }
 

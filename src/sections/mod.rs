@@ -182,6 +182,33 @@ pub fn kind(name: &str) -> Option<&'static dyn Kind> {
     KINDS.iter().copied().find(|kind| kind.name() == name)
 }
 
+/// Is this a dimension of some form of some kind?
+pub fn is_dimension(name: &str) -> bool {
+    forms().any(|(_, form)| form.dimensions.contains(&name))
+}
+
+/// Does a section given in this form offer this name? A kind's other dimensions need not follow from those of the form: a polygon with
+/// `scale_x` and `scale_y` has no `scale`.
+///
+/// ```
+/// use ribopt::sections::{kind, offers};
+/// let polygon = kind("polygon").unwrap();
+/// assert!(offers(&polygon.forms()[0], "scale") && !offers(&polygon.forms()[1], "scale"));
+/// ```
+pub fn offers(form: &Form, name: &str) -> bool {
+    if form.dimensions.contains(&name) {
+        return true;
+    }
+    let Some(kind) = kind(form.kind).filter(|kind| kind.properties().contains(&name)) else { return false };
+    if !kind.forms().iter().any(|other| other.dimensions.contains(&name)) {
+        return true;
+    }
+    let Some(form) = kind.forms().iter().find(|known| *known == form) else { return false };
+    let mut graph = Graph::new();
+    let dimensions: Vec<NodeId> = (0..form.dimensions.len() as u32).map(|slot| graph.input(slot)).collect();
+    kind.property(&mut graph, &Given { form, dimensions: &dimensions, outline: &[] }, name).is_some()
+}
+
 /// The number of a form.
 pub fn form_number(form: &Form) -> Option<u16> {
     forms().position(|(_, candidate)| candidate == form).and_then(|at| u16::try_from(at).ok())

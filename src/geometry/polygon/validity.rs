@@ -1,6 +1,5 @@
 //! What can be wrong with a polygon, every reason at once.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -118,8 +117,9 @@ fn flat(points: &[[f64; 2]]) -> bool {
     let origin = points[0];
     let reach = |d: usize| points.iter().map(|point| (point[d] - origin[d]).abs()).fold(0.0, f64::max);
     let bound = points.len() as f64 * f64::EPSILON * reach(0) * reach(1);
-    // Not greater: coordinates that overflow give NaN.
-    ring_moments(points, origin).area.abs().partial_cmp(&bound) != Some(Ordering::Greater)
+    let area = ring_moments(points, origin).area.abs();
+    // No number where the coordinates overflow.
+    area <= bound || area.is_nan()
 }
 
 /// Is the point inside the ring (not on it)? By the winding of the edges over it.

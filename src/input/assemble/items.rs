@@ -2,6 +2,7 @@
 
 use super::Assembly;
 use super::links::Link;
+use super::outlines::Points;
 use crate::input::declaration::{Datum, Declaration, DimensionEntry, Name, Range, RibEntry, SectionEntry};
 use crate::input::source::{Place, Written};
 use crate::problem::names::Entity;
@@ -38,7 +39,8 @@ impl Assembly<'_> {
     fn section_entry(&mut self, entry: &SectionEntry) {
         let given: Vec<Given> = entry.dimensions.iter().map(|(name, value)| self.given(name, value)).collect();
         let kind = entry.kind.as_ref().and_then(|written| self.kind(&written.text, written.place));
-        let Some(s) = self.section(&entry.name, kind, given) else { return };
+        let points = entry.points.as_ref().map(|points| self.points(points));
+        let Some(s) = self.section(&entry.name, kind, given, points) else { return };
         for (name, datum) in &entry.data {
             if kind.is_some_and(|kind| kind.properties().contains(&name.text.as_str())) {
                 let message = format!("`{}` is a property of this kind of section already", name.text);
@@ -78,19 +80,29 @@ impl Assembly<'_> {
     }
 
     /// Adds a section, with what can be told of it even after a mistake (its uses are no further mistakes).
-    pub(super) fn section(&mut self, name: &Name, kind: Option<&'static dyn Kind>, given: Vec<Given>) -> Option<u32> {
+    pub(super) fn section(
+        &mut self,
+        name: &Name,
+        kind: Option<&'static dyn Kind>,
+        given: Vec<Given>,
+        points: Option<Points>,
+    ) -> Option<u32> {
         let first = self.names.find(&self.problem, &name.text);
         if !self.usable(name, "section") || !self.is_new(name, "section", first) {
             return None;
         }
         let s = self.problem.sections.names.len() as u32;
         let form = kind.and_then(|kind| self.form(name, kind, &given));
+        let known_form = form;
         let fallback = || kind.unwrap_or(sections::KINDS[0]).forms().first();
         let form = form.or_else(fallback)?;
         self.problem.sections.form.push(sections::form_number(form)?);
         self.problem.sections.names.push(name.text.as_str().into());
         self.section_places.push(name.place);
         let _ = self.names.sections.enter(&self.problem.sections.names, s); // known to be free
+        if let Some(kind) = kind {
+            self.outline(s, name, kind.name(), known_form, points);
+        }
         let mut slots = vec![None; form.dimensions.len()];
         for one in given {
             if let Some(position) = form.dimensions.iter().position(|dimension| *dimension == one.name) {
@@ -153,12 +165,13 @@ impl Assembly<'_> {
             return Some(form);
         }
         let mut known: Vec<&str> = kind.forms().iter().flat_map(|form| form.dimensions.iter().copied()).collect();
+        known.extend(kind.has_outline().then_some("points"));
         known.sort_unstable();
         known.dedup();
         let unknown: Vec<&Given> = given.iter().filter(|one| !known.contains(&one.name)).collect();
         for one in &unknown {
             let help = did_you_mean(one.name, known.iter().copied().chain(["data", "kind"]));
-            let help = help.unwrap_or_else(|| format!("{} knows: {}", kind.name(), known.join(", ")));
+            let help = help.unwrap_or_else(|| format!("{} knows: {}", kind.name(), shown(&known)));
             self.findings.mistake(one.place, format!("unknown dimension `{}`", one.name), help);
         }
         if unknown.is_empty() {
@@ -172,8 +185,9 @@ impl Assembly<'_> {
     fn misfit(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) {
         let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
         let takes = |form: &Form| given.iter().all(|one| form.dimensions.contains(&one.name));
-        let sets: Vec<String> = kind.forms().iter().map(|form| form.dimensions.join(", ")).collect();
-        let help = format!("give {}", sets.join("; or "));
+        let sets: Vec<String> = kind.forms().iter().take(MOST_SETS).map(|form| form.dimensions.join(", ")).collect();
+        let more = if kind.forms().len() > MOST_SETS { "; and so on" } else { "" };
+        let help = format!("give {}{more}", sets.join("; or "));
         let (place, message) = match kind.forms().iter().find(|form| takes(form)) {
             Some(form) => {
                 let lacking: Vec<String> = form.dimensions.iter().filter(|d| !has(d)).map(|d| format!("`{d}`")).collect();
@@ -301,6 +315,15 @@ impl Assembly<'_> {
         let own = self.dimension_places.get(&(section, position));
         own.or_else(|| self.section_places.get(section as usize)).copied().unwrap_or(Place::Whole)
     }
+}
+
+/// Sets of dimensions named in help.
+const MOST_SETS: usize = 6;
+
+/// Names for help; of a numbered list its first.
+fn shown(names: &[&str]) -> String {
+    let told = names.iter().filter(|name| !name.ends_with(']') || name.ends_with("[1]"));
+    told.copied().collect::<Vec<_>>().join(", ")
 }
 
 /// The form with the most of the given dimensions.

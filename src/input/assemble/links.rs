@@ -7,7 +7,7 @@ use crate::input::declaration::Name;
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::evaluate::{Evaluation, Item};
-use crate::problem::mentions::mentions;
+use crate::problem::mentions::{Mention, mentions};
 use crate::problem::names::Entity;
 use crate::problem::order::order;
 use crate::problem::resolve::{ItemScope, Stage, Value};
@@ -34,6 +34,18 @@ struct Trees {
     definitions: Vec<Option<Ast>>,
     /// Texts of links.
     texts: Vec<Option<Ast>>,
+}
+
+/// The parts of a name, an index taken in where it makes a dimension: `wall`, `thickness[2]`.
+fn full_name(mention: &Mention) -> Vec<String> {
+    let mut parts = mention.parts.to_vec();
+    if let (Some(index), Some(last)) = (mention.index, parts.last_mut()) {
+        let numbered = format!("{last}[{index}]");
+        if sections::is_dimension(&numbered) {
+            *last = numbered;
+        }
+    }
+    parts
 }
 
 impl Assembly<'_> {
@@ -88,7 +100,8 @@ impl Assembly<'_> {
         let (mentions, folds) = mentions(tree);
         let mut needs: Vec<u32> = if folds { vec![all as u32] } else { Vec::new() };
         for mention in mentions.iter().filter(|mention| !mention.in_fold) {
-            let parts: Vec<&str> = mention.parts.iter().map(String::as_str).collect();
+            let parts = full_name(mention);
+            let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
             self.need(&parts, own, (first_link, all), &mut needs);
         }
         needs.sort_unstable_by(|a, b| b.cmp(a));

@@ -6,7 +6,9 @@ mod data;
 mod existence;
 mod items;
 mod links;
+mod outlines;
 mod overrides;
+mod profiles;
 mod requirement;
 mod tables;
 mod unused;
@@ -14,6 +16,7 @@ mod variables;
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use sha2::Sha256;
 
@@ -49,6 +52,8 @@ pub(super) struct Assembly<'a> {
     /// The texts of those expressions, each once.
     texts: Vec<Written>,
     text_numbers: HashMap<String, u32>,
+    /// Points of tables' cells by their text, each kept once.
+    points: HashMap<String, Option<Arc<Vec<[f64; 2]>>>>,
     used: Vec<(Collection, u32)>,
 }
 
@@ -66,6 +71,7 @@ pub(super) fn assemble(
     assembly.declare_names(&declared);
     assembly.parameters(&declared, &overrides);
     assembly.variables(&declared.variables);
+    assembly.profiles(&declared);
     assembly.items(&declared);
     assembly.tables(&declared, folder, checksum);
     assembly.finish_items();
@@ -109,6 +115,7 @@ impl<'a> Assembly<'a> {
             links: Vec::new(),
             texts: Vec::new(),
             text_numbers: HashMap::new(),
+            points: HashMap::new(),
             used: Vec::new(),
         }
     }

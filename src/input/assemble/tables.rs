@@ -42,7 +42,8 @@ impl Assembly<'_> {
         for dimension in &columns.dimensions {
             given.extend(self.cell(row, dimension));
         }
-        if let Some(s) = self.section(&name, kind, given) {
+        let points = columns.points.and_then(|at| self.points_cell(row, at));
+        if let Some(s) = self.section(&name, kind, given, points) {
             for &(at, column) in &columns.data {
                 put(&mut self.section_data, &mut self.findings, row, at, column, s as usize);
             }

@@ -1,10 +1,11 @@
 //! `[sections.NAME]` and `[[ribs]]`.
 
 use super::{name, range};
-use crate::input::declaration::{Datum, DimensionEntry, Name, RibEntry, SectionEntry};
-use crate::input::fields::{Field, Fields, Reader};
+use crate::input::declaration::{Datum, DimensionEntry, Name, PointsEntry, RibEntry, SectionEntry};
+use crate::input::fields::{Field, Fields, Reader, Scalar};
 use crate::input::source::Written;
 use crate::problem::VolumeLaw;
+use crate::sections::is_dimension;
 use toml::de::DeValue;
 
 /// One section: `kind`, `data`, and every other key a dimension.
@@ -13,8 +14,46 @@ pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry
     let what = format!("section `{}`", field.key);
     let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
     let data = data(&mut fields, reader);
-    let dimensions = fields.rest().iter().map(|field| (name(field), dimension(field, reader))).collect();
-    Some(SectionEntry { name: name(field), kind, dimensions, data })
+    let points = fields.take("points").and_then(|field| points(&field, reader));
+    let dimensions = fields.rest().iter().flat_map(|field| dimensions(field, reader)).collect();
+    Some(SectionEntry { name: name(field), kind, points, dimensions, data })
+}
+
+/// `[[x, y], …]`; `None` after a mistake.
+fn points(field: &Field, reader: &mut Reader) -> Option<PointsEntry> {
+    const SHAPE: &str = "pairs of numbers: [[0, 0], [0.4, 0], [0.4, 0.3]]";
+    let Some(items) = field.items() else { return field.expected(SHAPE, reader) };
+    let count = items.len();
+    let list: Vec<[Scalar; 2]> = items
+        .iter()
+        .filter_map(|item| {
+            let Some(pair) = item.items() else { return item.expected(SHAPE, reader) };
+            let found = pair.len();
+            let both: Option<Vec<Scalar>> = pair.iter().map(|one| one.scalar(reader)).collect();
+            let both = both?;
+            if both.len() != 2 {
+                let message = format!("a point of {found} numbers");
+                reader.findings.mistake(item.place, message, format!("expected {SHAPE}"));
+            }
+            both.try_into().ok()
+        })
+        .collect();
+    // Further mistakes of points that are only partly known would be none of the user's.
+    (list.len() == count).then_some(PointsEntry { list, place: field.place })
+}
+
+/// One dimension, or one per item of an array: `thickness = [0.01, 0.02]` gives `thickness[1]` and `thickness[2]`.
+fn dimensions(field: &Field, reader: &mut Reader) -> Vec<(Name, DimensionEntry)> {
+    match field.items() {
+        Some(items) if is_dimension(&format!("{}[1]", field.key)) => {
+            let numbered = |(at, item): (usize, &Field)| {
+                let name = Name { text: format!("{}[{}]", field.key, at + 1), place: item.place };
+                (name, dimension(item, reader))
+            };
+            items.iter().enumerate().map(numbered).collect()
+        }
+        _ => vec![(name(field), dimension(field, reader))],
+    }
 }
 
 fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {

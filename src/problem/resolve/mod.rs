@@ -3,6 +3,7 @@
 mod condition;
 mod name;
 mod over;
+mod profile;
 mod scope;
 
 use super::evaluate::{Evaluation, Item};
@@ -124,6 +125,7 @@ impl<'a, 'r> Resolver<'a, 'r> {
             AstKind::Over { fold, collection, filter, body } => {
                 self.over(*fold, *collection, filter.as_deref(), body, ast.span).map(Value::Scalar)
             }
+            AstKind::Call(name, arguments) if name == "profile" => self.profile(arguments, ast.span).map(Value::Scalar),
             AstKind::Call(name, arguments) => self.call(name, arguments, ast.span),
         }
     }
@@ -132,7 +134,7 @@ impl<'a, 'r> Resolver<'a, 'r> {
     fn call(&mut self, name: &str, arguments: &[Ast], span: Span) -> Option<Value> {
         arguments.iter().for_each(|argument| drop(self.value(argument)));
         let span = Span { start: span.start, end: span.start + name.len() };
-        let functions = Unary::NAMED.iter().map(|(name, _)| *name).chain(["atan2", "min", "max", "sum"]);
+        let functions = Unary::NAMED.iter().map(|(name, _)| *name).chain(["atan2", "min", "max", "sum", "profile"]);
         if self.world.names.find(self.world.problem, name).is_some() {
             let help = format!("write `{name}*(…)` for a product, `{name}[…]` for an element");
             return self.mistake(span, format!("`{name}` is no function"), Some(help));
@@ -144,6 +146,11 @@ impl<'a, 'r> Resolver<'a, 'r> {
 
     /// `x[3]`
     fn index(&mut self, base: &Ast, index: &Ast, span: Span) -> Option<Value> {
+        if let AstKind::Name(parts) = &base.kind
+            && self.lists_dimensions(parts)
+        {
+            return self.listed_dimension(parts, index, span);
+        }
         let (base_value, position) = (self.value(base), self.scalar(index));
         let Value::Array(mut list) = base_value? else {
             return self.mistake(base.span, "this is one number, not an array", Some("leave the index out".into()));

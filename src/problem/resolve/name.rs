@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Resolver, Stage, Value};
 use crate::expression::Span;
-use crate::expression::ast::Collection;
+use crate::expression::ast::{Ast, Collection};
 use crate::problem::evaluate::number;
 use crate::problem::formula::{End, Total};
 use crate::problem::names::Entity;
@@ -179,13 +179,37 @@ impl<'a> Resolver<'a, '_> {
             }
         }
         let kind = sections::kind_of(number);
-        if kind.properties().contains(&name) {
+        if sections::offers(sections::form(number), name) {
             return Some(self.folded(Formula::SectionProperty(s, property(name))));
         }
         match self.cell(Collection::Sections, s, name, span) {
             Some(value) => value,
-            None => self.no_property(name, Some(kind.name()), kind.properties().to_vec(), span),
+            None => {
+                let offered = kind.properties().iter().copied().filter(|name| sections::offers(sections::form(number), name));
+                self.no_property(name, Some(kind.name()), offered.collect(), span)
+            }
         }
+    }
+
+    /// True for the name of a list of dimensions: `thickness` of a polyline, in `wall.thickness[2]`.
+    pub(super) fn lists_dimensions(&self, parts: &[String]) -> bool {
+        let Some((last, item)) = parts.split_last() else { return false };
+        let first = format!("{last}[1]");
+        let own = || self.scope.is_some_and(|scope| scope.offers(&first));
+        sections::is_dimension(&first) && (!item.is_empty() || own())
+    }
+
+    /// `wall.thickness[2]`
+    pub(super) fn listed_dimension(&mut self, parts: &[String], index: &Ast, span: Span) -> Option<Value> {
+        let Formula::Constant(position) = self.scalar(index)? else {
+            let help = "an index is a number or an expression in parameters";
+            return self.mistake(index.span, "this index is not constant", Some(help.into()));
+        };
+        let mut parts = parts.to_vec();
+        if let Some(last) = parts.last_mut() {
+            *last = format!("{last}[{position}]");
+        }
+        self.name(&parts, span)
     }
 
     fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {

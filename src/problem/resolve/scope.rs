@@ -43,7 +43,7 @@ impl ItemScope {
 
     /// True where every section concerned offers this property.
     pub fn offers(&self, property: &str) -> bool {
-        !self.forms.is_empty() && self.kinds().all(|kind| kind.properties().contains(&property))
+        !self.forms.is_empty() && self.forms().all(|form| sections::offers(form, property))
     }
 
     /// True in a dimension's expression for names that could only lead back to it.
@@ -54,13 +54,17 @@ impl ItemScope {
 
     /// The name of a kind that does not offer a property some other kind here does.
     pub fn lacking(&self, property: &str) -> Option<&'static str> {
-        let some = self.kinds().any(|kind| kind.properties().contains(&property));
-        self.kinds().find(|kind| some && !kind.properties().contains(&property)).map(|kind| kind.name())
+        let some = self.forms().any(|form| sections::offers(form, property));
+        self.forms().find(|form| some && !sections::offers(form, property)).map(|form| form.kind)
     }
 
     /// Names of properties of the first kind, for suggestions.
     pub fn properties(&self) -> impl Iterator<Item = &'static str> {
         self.kinds().next().into_iter().flat_map(|kind| kind.properties().iter().copied())
+    }
+
+    fn forms(&self) -> impl Iterator<Item = &'static sections::Form> {
+        self.forms.iter().map(|&form| sections::form(form))
     }
 
     fn kinds(&self) -> impl Iterator<Item = &'static dyn sections::Kind> {

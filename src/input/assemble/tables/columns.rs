@@ -5,12 +5,14 @@ use crate::input::assemble::data::DataColumns;
 use crate::input::findings::Findings;
 use crate::input::table::Table;
 use crate::problem::nearest::did_you_mean;
-use crate::sections;
+use crate::sections::{self, is_dimension};
 
 /// Columns of the table of sections.
 pub(super) struct SectionColumns {
     pub name: usize,
     pub kind: usize,
+    /// Points as `x y; x y; …`, for kinds that have them.
+    pub points: Option<usize>,
     pub dimensions: Vec<Dimension>,
     /// Field and data column.
     pub data: Vec<(usize, usize)>,
@@ -42,7 +44,7 @@ impl SectionColumns {
     /// Sorts out the headers; `None` where a needed column is missing.
     pub fn of(table: &Table, data: &mut DataColumns, findings: &mut Findings) -> Option<SectionColumns> {
         let (name, kind) = (required(table, "name", findings), required(table, "kind", findings));
-        let mut columns = SectionColumns { name: name?, kind: kind?, dimensions: Vec::new(), data: Vec::new() };
+        let mut columns = SectionColumns { name: name?, kind: kind?, points: None, dimensions: Vec::new(), data: Vec::new() };
         for (at, header) in table.headers.iter().enumerate() {
             match header.split_once('.') {
                 _ if at == columns.name || at == columns.kind || header.is_empty() => {}
@@ -56,6 +58,7 @@ impl SectionColumns {
                     }
                 }
                 Some((dimension, _)) => unknown(table, at, did_you_mean(dimension, dimensions()), findings),
+                None if header == "points" => columns.points = Some(at),
                 None if is_dimension(header) => columns.dimension(header).value = Some(at),
                 None if is_property(header) => {
                     let message = format!("`{header}` is a property of sections already");
@@ -123,10 +126,6 @@ fn unknown(table: &Table, at: usize, near: Option<String>, findings: &mut Findin
 
 fn dimensions() -> impl Iterator<Item = &'static str> {
     sections::forms().flat_map(|(_, form)| form.dimensions.iter().copied())
-}
-
-fn is_dimension(name: &str) -> bool {
-    dimensions().any(|dimension| dimension == name)
 }
 
 fn is_property(name: &str) -> bool {

@@ -1,0 +1,67 @@
+//! Points of sections drawn by points.
+
+use std::sync::Arc;
+
+use super::Assembly;
+use crate::input::declaration::{Name, PointsEntry};
+use crate::input::source::Place;
+use crate::input::table::Row;
+use crate::sections::{self, Form};
+
+/// Points of one section; the list is `None` after a mistake in it.
+pub(super) struct Points {
+    pub list: Option<Arc<Vec<[f64; 2]>>>,
+    pub place: Place,
+}
+
+impl Assembly<'_> {
+    /// The points of the problem file.
+    pub(super) fn points(&mut self, entry: &PointsEntry) -> Points {
+        let constants = entry.list.iter().map(|pair| {
+            let [x, y] = pair.each_ref().map(|scalar| self.constant(scalar));
+            Some([x?, y?])
+        });
+        let constants: Vec<Option<[f64; 2]>> = constants.collect();
+        Points { list: constants.into_iter().collect::<Option<Vec<_>>>().map(Arc::new), place: entry.place }
+    }
+
+    /// The points in a table's cell; equal texts share one list.
+    pub(super) fn points_cell(&mut self, row: &Row, at: usize) -> Option<Points> {
+        let (text, place) = (row.field(at), row.place(at));
+        if text.is_empty() {
+            return None;
+        }
+        if let Some(known) = self.points.get(text) {
+            return Some(Points { list: known.clone(), place });
+        }
+        let read = crate::input::points(text);
+        let list = read.map_err(|message| self.findings.mistake(place, message, "as in 0 0; 0.4 0; 0.4 0.3")).ok().map(Arc::new);
+        self.points.insert(text.to_owned(), list.clone());
+        Some(Points { list, place })
+    }
+
+    /// Enters a section's points. `form` is `None` after a mistake in the dimensions.
+    pub(super) fn outline(&mut self, s: u32, name: &Name, kind: &str, form: Option<&Form>, points: Option<Points>) {
+        let drawn = sections::kind(kind).is_some_and(|kind| kind.has_outline());
+        match points {
+            None if drawn => {
+                let help = "add points = [[x, y], [x, y], …]; in a table a column points: x y; x y; …";
+                self.findings.mistake(name.place, format!("section `{}` lacks `points`", name.text), help);
+            }
+            Some(points) if !drawn => {
+                let by_points = sections::KINDS.iter().filter(|kind| kind.has_outline()).map(|kind| kind.name());
+                let help = format!("kinds drawn by points: {}", by_points.collect::<Vec<_>>().join(", "));
+                self.findings.mistake(points.place, format!("a section of kind {kind} has no points"), help);
+            }
+            Some(Points { list: Some(list), place }) => {
+                let kind = sections::kind(kind);
+                if let Some(reason) = form.and_then(|form| kind?.outline_defect(form, &list)) {
+                    let help = "list the corners in order, once round or along the line, without crossings";
+                    self.findings.mistake(place, format!("section `{}`: {reason}", name.text), help);
+                }
+                self.problem.sections.outlines.insert(s, list);
+            }
+            _ => {}
+        }
+    }
+}

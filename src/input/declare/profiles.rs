@@ -1,0 +1,80 @@
+//! `[profiles.NAME]`.
+
+use super::{name, numbers, open_variable, range};
+use crate::input::declaration::{Degree, Numbers, ProfileEntry, Range, VariableEntry};
+use crate::input::fields::{Field, Fields, Reader, Scalar};
+use crate::problem::nearest::did_you_mean;
+
+/// The kinds of profile, with the degree and the number of control values that go with them.
+pub(in crate::input) const KINDS: &[(&str, Option<(u32, u32)>)] =
+    &[("b-spline", None), ("linear", Some((1, 2))), ("constant", Some((0, 1)))];
+
+/// The degree where none is given: smooth to the second derivative.
+pub(in crate::input) const DEFAULT_DEGREE: u32 = 3;
+
+/// One profile and its control values, which become variable number `variable` of the declaration.
+pub(super) fn profile(field: &Field, variable: usize, reader: &mut Reader) -> (Option<ProfileEntry>, VariableEntry) {
+    let Some(mut fields) = field.table(reader) else { return (None, open_variable(field)) };
+    let what = format!("profile `{}`", field.key);
+    let fixed = kind(&mut fields, reader);
+    let degree = fields.take("degree");
+    let knots = fields.take("knots");
+    if fixed.is_some() {
+        for idle in degree.iter().chain(&knots) {
+            let message = format!("`{}` does not go with the kind of {what}", idle.key);
+            reader.findings.mistake(idle.key_place, message, "leave it out, or use kind = \"b-spline\"");
+        }
+    }
+    let degree = match (fixed, degree.and_then(|field| field.scalar(reader))) {
+        (Some((degree, _)), _) => Degree::Fixed(degree),
+        (None, Some(given)) => Degree::Given(given),
+        (None, None) => Degree::Fixed(DEFAULT_DEGREE),
+    };
+    let knots = knots.and_then(|field| match field.items() {
+        Some(items) => Some((items.iter().filter_map(|item| item.scalar(reader)).collect(), field.place)),
+        None => field.expected("an array of knots", reader),
+    });
+    let controls = controls(field, &mut fields, fixed.map(|(_, size)| size), &what, reader);
+    fields.finish(reader);
+    (Some(ProfileEntry { name: name(field), variable, degree, knots: knots.filter(|_| fixed.is_none()) }), controls)
+}
+
+/// Degree and size of a kind that fixes them.
+fn kind(fields: &mut Fields, reader: &mut Reader) -> Option<(u32, u32)> {
+    let written = fields.take("kind")?.text(reader)?;
+    let known = KINDS.iter().find(|(name, _)| *name == written.text);
+    if known.is_none() {
+        let names = || KINDS.iter().map(|(name, _)| *name);
+        let help = did_you_mean(&written.text, names());
+        let help = help.unwrap_or_else(|| format!("known: {}", names().collect::<Vec<_>>().join(", ")));
+        reader.findings.mistake(written.place, format!("unknown kind of profile `{}`", written.text), help);
+    }
+    known.and_then(|(_, fixed)| *fixed)
+}
+
+/// `control = { size, lower, upper, start }`
+fn controls(field: &Field, fields: &mut Fields, size: Option<u32>, what: &str, reader: &mut Reader) -> VariableEntry {
+    let given = fields.require("control", what, reader);
+    let Some((control, mut table)) = given.and_then(|control| Some((control.clone(), control.table(reader)?))) else {
+        return VariableEntry { size: Some(whole(size.unwrap_or(1), field)), ..open_variable(field) };
+    };
+    let given = match size {
+        Some(_) => table.take("size"),
+        None => table.require("size", &format!("{what}: control"), reader),
+    };
+    let given = given.and_then(|field| field.scalar(reader));
+    if let (Some(size), Some(Scalar::Number(value, place))) = (size, &given)
+        && *value != f64::from(size)
+    {
+        let message = format!("{what} has {size} control values by its kind, not {value}");
+        reader.findings.mistake(*place, message, "leave `size` out, or use kind = \"b-spline\"");
+    }
+    let size = size.map(|size| whole(size, &control)).or(given).unwrap_or_else(|| whole(1, &control));
+    let range: Range<Numbers> = range(&mut table, numbers, reader);
+    table.finish(reader);
+    VariableEntry { name: name(field), size: Some(size), range }
+}
+
+fn whole(value: u32, at: &Field) -> Scalar {
+    Scalar::Number(value.into(), at.place)
+}
