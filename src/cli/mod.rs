@@ -9,6 +9,7 @@ mod interrupt;
 mod live_table;
 mod output;
 mod reference;
+mod section;
 mod solve;
 mod verify;
 
@@ -40,6 +41,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),
         Command::Schema => reference::schema(),
     }

@@ -54,7 +54,11 @@ impl Profile {
 
 fn term((variable, weight): (u32, f64)) -> Formula {
     let variable = Formula::Variable(variable);
-    if weight == 1.0 { variable } else { Formula::Binary(Binary::Multiply, Box::new(Formula::Constant(weight)), Box::new(variable)) }
+    if weight == 1.0 {
+        variable
+    } else {
+        Formula::Binary(Binary::Multiply, Box::new(Formula::Constant(weight)), Box::new(variable))
+    }
 }
 
 #[cfg(test)]

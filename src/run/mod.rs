@@ -5,6 +5,8 @@ pub mod check;
 pub mod choice;
 pub mod compare;
 pub mod folder;
+mod pictures;
+pub mod section;
 pub mod solve;
 pub mod subject;
 pub mod verify;

@@ -50,7 +50,8 @@ impl Assembly<'_> {
             let start = self.dimensions_by(s, |dimension| at_start.dimension(s, dimension));
             let fixed = self.dimensions_by(s, |dimension| Evaluation::constants(&self.problem).dimension(s, dimension));
             let largest = self.dimensions_by(s, |dimension| self.largest(s, dimension));
-            let found = [fixed, start, largest].into_iter().enumerate().find_map(|(at, values)| Some((at, self.fold(s, &values?)?)));
+            let found =
+                [fixed, start, largest].into_iter().enumerate().find_map(|(at, values)| Some((at, self.fold(s, &values?)?)));
             let Some((at, reason)) = found else { continue };
             let (section, place) = (&self.problem.sections.names[s as usize], self.section_places[s as usize]);
             let help = "thinner walls, or a constraint that keeps `clear` positive";

@@ -55,7 +55,9 @@ impl Assembly<'_> {
         let (from, to) = made.domain();
         let outside = [0.0, 1.0].into_iter().find(|end| !(from <= *end && *end <= to));
         match outside {
-            Some(x) => Err((SplineError::Outside { x, from, to }, format!("{}: divide the knots by the line's length", remedy()))),
+            Some(x) => {
+                Err((SplineError::Outside { x, from, to }, format!("{}: divide the knots by the line's length", remedy())))
+            }
             None => Ok(made),
         }
     }
