@@ -7,6 +7,8 @@ pub mod compare;
 pub mod folder;
 pub mod network;
 mod sizing;
+mod pictures;
+pub mod section;
 pub mod solve;
 pub mod start;
 pub mod subject;
