@@ -108,3 +108,31 @@ fn links_that_double_sixty_times() {
     );
     close(objective(&problem), 0.1 * 2.0_f64.powi(60));
 }
+
+#[test]
+fn a_chain_of_definitions_too_long_for_any_stack() {
+    let steps: String = (1..=100_000).map(|i| format!("d{i} = \"sin(d{})\"\n", i - 1)).collect();
+    let (code, result) = solve(&format!("minimize = \"d100000\"\n{X}[definitions]\nd0 = \"x\"\n{steps}"));
+    assert_eq!(code, 2);
+    let message = result["mistakes"][0]["message"].as_str().expect("a mistake");
+    assert!(message.contains("in a chain"), "{message}");
+}
+
+#[test]
+fn devices_that_never_end() {
+    if !Path::new("/dev/zero").exists() {
+        return;
+    }
+    let table = folder("minimize = \"volume\"\n[tables]\nsections = \"/dev/zero\"\n");
+    for file in ["/dev/zero", "p.toml"] {
+        assert_eq!(ribopt(table.path(), &["check", file]).status.code(), Some(2), "{file}");
+    }
+}
+
+#[test]
+fn a_key_given_again_on_the_next_line() {
+    let folder = folder("minimize = \"x\"\nminimize = \"x\"\n[variables]\nx = { lower = 1 }\n");
+    let output = ribopt(folder.path(), &["check", "p.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("the first stands at p.toml:1"), "{said}");
+}

@@ -1,7 +1,7 @@
 //! From a path to text: files that are missing, no files, no text, empty or far too large.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::mistake::{Mistake, Mistakes};
@@ -18,11 +18,14 @@ pub(super) fn load(path: &Path) -> Result<(Source, Vec<u8>), Mistakes> {
     if metadata.is_dir() {
         return Err(whole(format!("{name} is a directory"), "name the problem file in it, such as problem.toml"));
     }
-    if metadata.len() > LARGEST {
+    // A device may go on for ever whatever its length says.
+    let mut bytes = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+    read.map_err(|error| unreadable(&name, &error))?;
+    if bytes.len() as u64 > LARGEST {
         let help = "many sections and ribs belong into CSV tables: [tables] sections = \"sections.csv\"";
         return Err(whole(format!("{name} is larger than {} MB", LARGEST >> 20), help));
     }
-    let bytes = fs::read(path).map_err(|error| unreadable(&name, &error))?;
     let text = match std::str::from_utf8(&bytes) {
         Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
         Err(error) => return Err(not_text(&name, &bytes, error.valid_up_to())),

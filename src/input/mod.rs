@@ -108,7 +108,8 @@ fn syntax(source: &Source, errors: &[toml::de::Error], findings: &mut Findings) 
 /// Where a key stood first: the nearest line above, in the same table, that begins with it.
 fn earlier(source: &Source, key: std::ops::Range<usize>) -> Option<String> {
     let (text, before) = (source.text.get(key.clone())?, source.text.get(..key.start)?);
-    let above: Vec<&str> = before.lines().collect();
+    // The last piece is what stands before the key on its own line.
+    let above: Vec<&str> = before.split('\n').collect();
     let within = above.iter().enumerate().rev().skip(1).take_while(|(_, line)| !line.trim_start().starts_with('['));
     let begins = |line: &str| line.trim_start().strip_prefix(text).is_some_and(|rest| rest.trim_start().starts_with('='));
     let first = within.filter(|(_, line)| begins(line)).last().map(|(at, _)| at + 1)?;

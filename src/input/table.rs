@@ -45,9 +45,11 @@ impl<'a> Table<'a> {
     /// Opens the table `written` names, beside the problem file; `None` after a mistake.
     pub fn open(written: &Written, folder: &Path, checksum: &'a mut Sha256, findings: &mut Findings) -> Option<Table<'a>> {
         let path = folder.join(&written.text);
-        let opened = File::open(&path).and_then(|file| match file.metadata()?.is_dir() {
-            true => Err(io::ErrorKind::IsADirectory.into()),
-            false => Ok(file),
+        // A device may go on for ever.
+        let opened = File::open(&path).and_then(|file| match file.metadata()? {
+            metadata if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            metadata if metadata.is_file() => Ok(file),
+            _ => Err(io::Error::other("it is no regular file")),
         });
         let file = match opened {
             Ok(file) => file,

@@ -28,11 +28,6 @@ impl Affine {
         Reading::of(problem).formula(formula, item)
     }
 
-    /// A dimension or property of section `s`.
-    pub fn of_property(problem: &Problem, s: u32, name: &str) -> Option<Affine> {
-        Reading::of(problem).property(s, name)
-    }
-
     /// `self + factor·other`
     pub fn plus(mut self, other: &Affine, factor: f64) -> Affine {
         self.constant += factor * other.constant;
@@ -68,7 +63,7 @@ impl Affine {
 }
 
 /// What was read so far: definitions and links may share one another many times over.
-struct Reading<'a> {
+pub(super) struct Reading<'a> {
     problem: &'a Problem,
     definitions: HashMap<u32, Option<Affine>>,
     /// Linked dimensions, by section and formula.
@@ -76,7 +71,7 @@ struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    fn of(problem: &'a Problem) -> Self {
+    pub fn of(problem: &'a Problem) -> Self {
         Reading { problem, definitions: HashMap::new(), links: HashMap::new() }
     }
 
@@ -117,7 +112,8 @@ impl<'a> Reading<'a> {
         found
     }
 
-    fn property(&mut self, s: u32, name: &str) -> Option<Affine> {
+    /// A dimension or property of section `s`.
+    pub fn property(&mut self, s: u32, name: &str) -> Option<Affine> {
         if let Some(dimension) = self.problem.given_dimension(s, name) {
             return self.dimension(s, dimension);
         }

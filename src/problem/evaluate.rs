@@ -165,6 +165,8 @@ impl<'a> Evaluation<'a> {
         match dimension {
             Dimension::Constant(value) => Some(value),
             Dimension::Variable(j) => self.variable(j),
+            // Constant links were folded where they are declared.
+            Dimension::Formula(_) if !self.at_start => None,
             Dimension::Formula(f) => {
                 self.named(Named::Link(s, f), self.problem.dimension_formulas.get(f as usize)?, Item::Section(s))
             }

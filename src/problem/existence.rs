@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::affine::Affine;
+use super::affine::{Affine, Reading};
 use super::evaluate::{Evaluation, Item};
 use super::{Constraint, Formula, Limit, Problem, Scope, sections_form};
 use crate::sections;
@@ -21,11 +21,11 @@ pub struct Doubt {
 
 /// Every dimension in doubt, section by section. Linear rows that keep a dimension positive are taken into account.
 pub fn doubts(problem: &Problem) -> Vec<Doubt> {
-    let rows = Rows::of(problem);
+    let (rows, mut reading) = (Rows::of(problem), Reading::of(problem));
     let mut found = Vec::new();
     for section in 0..problem.sections.names.len() as u32 {
-        for name in needed(problem, section) {
-            let Some(value) = Affine::of_property(problem, section, name) else { continue };
+        for name in needed(problem, section, &mut reading) {
+            let Some(value) = reading.property(section, name) else { continue };
             let (least, most) = value.range(&problem.variables);
             let never = most <= 0.0;
             if never || (least <= 0.0 && !rows.keep_positive(problem, section, &value)) {
@@ -37,15 +37,16 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
 }
 
 /// The dimensions that must be positive: the given ones, and those of the kind that are no mere multiple of a given one.
-fn needed(problem: &Problem, section: u32) -> impl Iterator<Item = &'static str> {
-    let form = sections_form(problem, section as usize);
-    let number = problem.sections.form[section as usize];
-    let derived = sections::kind_of(number).positive().iter().copied().filter(move |name| {
-        form.is_some_and(|form| !form.dimensions.contains(name))
-            && Affine::of_property(problem, section, name).is_some_and(|value| value.terms.len() != 1 || value.constant != 0.0)
-    });
-    let given = form.into_iter().flat_map(|form| form.dimensions.iter().copied());
-    given.chain(derived.collect::<Vec<_>>())
+fn needed(problem: &Problem, section: u32, reading: &mut Reading) -> Vec<&'static str> {
+    let given = sections_form(problem, section as usize).map_or(&[][..], |form| form.dimensions);
+    let kind = sections::kind_of(problem.sections.form[section as usize]);
+    let derived = kind
+        .positive()
+        .iter()
+        .copied()
+        .filter(|name| !given.contains(name) && reading.property(section, name).is_some_and(|value| value.terms.len() != 1 || value.constant != 0.0));
+    let derived: Vec<&str> = derived.collect();
+    given.iter().copied().chain(derived).collect()
 }
 
 /// Rows that may keep a dimension positive, findable by section and by variable.

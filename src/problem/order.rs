@@ -7,6 +7,15 @@ pub struct Order {
     pub order: Vec<u32>,
     /// Dependencies that lead back, each with the circle it closes.
     pub circles: Vec<Vec<u32>>,
+    /// For every node the length of the longest chain of dependencies below it.
+    pub depth: Vec<u32>,
+}
+
+impl Order {
+    fn deepen(&mut self, user: u32, needed: u32) {
+        let depth = self.depth[needed as usize] + 1;
+        self.depth[user as usize] = self.depth[user as usize].max(depth);
+    }
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -19,7 +28,7 @@ enum State {
 /// Depth first, without recursion: chains may be a million long. `dependencies(i)` lists what node `i` needs.
 pub fn order(nodes: usize, dependencies: impl Fn(u32) -> Vec<u32>) -> Order {
     let mut state = vec![State::New; nodes];
-    let mut found = Order { order: Vec::with_capacity(nodes), circles: Vec::new() };
+    let mut found = Order { order: Vec::with_capacity(nodes), circles: Vec::new(), depth: vec![0; nodes] };
     let mut path: Vec<(u32, Vec<u32>)> = Vec::new();
     for root in 0..nodes as u32 {
         if state[root as usize] == State::New {
@@ -37,11 +46,14 @@ pub fn order(nodes: usize, dependencies: impl Fn(u32) -> Vec<u32>) -> Order {
                     let start = path.iter().position(|(open, _)| *open == next).unwrap_or(0);
                     found.circles.push(path[start..].iter().map(|(open, _)| *open).collect());
                 }
-                Some(_) => {}
+                Some(next) => found.deepen(node, next),
                 None => {
                     state[node as usize] = State::Done;
                     found.order.push(node);
                     path.pop();
+                    if let Some(&(user, _)) = path.last() {
+                        found.deepen(user, node);
+                    }
                 }
             }
         }
@@ -72,6 +84,7 @@ mod tests {
     fn circles_are_found_and_long_chains_are_no_trouble() {
         assert_eq!(order(2, |node| vec![1 - node]).circles, [[0, 1]]);
         let n = 300_000;
-        assert_eq!(order(n, |node| if node as usize + 1 < n { vec![node + 1] } else { vec![] }).order.len(), n);
+        let chain = order(n, |node| if node as usize + 1 < n { vec![node + 1] } else { vec![] });
+        assert_eq!((chain.order.len(), chain.depth[0], chain.depth[n - 1]), (n, n as u32 - 1, 0));
     }
 }

@@ -25,6 +25,9 @@ pub(super) struct Link {
     pub inside: Option<u32>,
 }
 
+/// Definitions and links one below the other at the most: what reads them needs stack for each.
+const DEEPEST: u32 = 10_000;
+
 /// The formula last met for a text, so that a table's column of equal expressions is stored once.
 type Shared = Vec<Option<(Formula, u32)>>;
 
@@ -60,6 +63,14 @@ impl Assembly<'_> {
         for circle in &found.circles {
             self.say_circle(circle, definitions);
             circle.iter().for_each(|&node| broken[node as usize] = true);
+        }
+        for node in (0..all).filter(|&node| found.depth[node] > DEEPEST) {
+            broken[node] = true;
+            if found.depth[node] == DEEPEST + 1 {
+                let place = definitions.get(node).map_or_else(|| self.links[node - first_link].place, |(name, _)| name.place);
+                let message = format!("more than {DEEPEST} definitions or links need one another in a chain");
+                self.findings.mistake(place, message, "shorten the chain: sum(…) adds up an array, or ribs and sections");
+            }
         }
         let mut shared: Shared = vec![None; self.texts.len()];
         for node in found.order.into_iter().map(|node| node as usize).filter(|&node| node < all && !broken[node]) {

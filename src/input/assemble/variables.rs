@@ -47,7 +47,11 @@ impl Assembly<'_> {
         let Some(value) = self.constant(size) else { return 1 };
         if !allowed(&value) {
             let message = format!("an array cannot have {value} elements");
-            self.findings.mistake(size.place(), message, "`size` is a whole number from 1");
+            self.findings.mistake(
+                size.place(),
+                message,
+                format!("`size` is a whole number from 1; all variables together are at most {LARGEST}"),
+            );
             return 1;
         }
         value as u32
