@@ -117,9 +117,9 @@ fn a_solved_problem_exits_with_0_and_leaves_its_files() {
 fn the_summary_reads_well() {
     let folder = folder(RIB);
     let text = out(&ribopt(&folder, "solve rib.toml --backend argmin"));
-    // The table of backends holds timings, and rounding that differs from machine to machine.
-    let timed = text.split("\n\n").filter(|paragraph| !paragraph.contains("seconds"));
-    insta::assert_snapshot!(timed.collect::<Vec<_>>().join("\n\n"));
+    // The table of backends holds timings; the gap to the lower bound is rounding, different from machine to machine.
+    let untimed = text.split("\n\n").filter(|paragraph| !paragraph.contains("seconds")).collect::<Vec<_>>().join("\n\n");
+    insta::assert_snapshot!(untimed.lines().filter(|line| !line.starts_with("within ")).collect::<Vec<_>>().join("\n"));
 }
 
 #[test]

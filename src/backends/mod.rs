@@ -63,7 +63,7 @@ pub struct Iteration<'a> {
     pub optimality: f64,
     /// Norm of the last step.
     pub step_norm: f64,
-    /// The point.
+    /// The point; empty where a solver of many independent parts puts it together only in the end.
     pub x: &'a [f64],
 }
 

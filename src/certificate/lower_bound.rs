@@ -1,5 +1,6 @@
 //! A rigorous lower bound of a convex problem's minimum.
 
+use super::implied_box;
 use super::point::{Origin, Point};
 use crate::model::{EvaluationError, Model};
 
@@ -7,7 +8,8 @@ use crate::model::{EvaluationError, Model};
 ///
 /// For signs as at a minimum, f ≥ L = f + yᵀ(c − limit) on the feasible set, and L, being convex, lies above its tangent at x:
 /// f ≥ L(x) + Σ min over the box of (∂L/∂x_j)·(v − x_j). Rounded outwards by the summed magnitudes of all terms. Multipliers
-/// whose side is open are left out. `None` where a bound that is needed is open. The model must be convex.
+/// whose side is open are left out. Where a bound is open, what follows from the rows and from f ≤ f(x) takes its place; `None`
+/// where that is open, too. The model must be convex.
 ///
 /// # Errors
 /// The model has no value or derivative at `x`.
@@ -25,14 +27,16 @@ pub fn lower_bound(model: &dyn Model, x: &[f64], y: &[f64]) -> Result<Option<f64
         bound.add(-y * point.row_limit(i, y));
     }
     let slopes = point.row_gradient(&y);
+    let (down, up) = implied_box::around(&point);
     for (j, error) in slope_errors(&point, &y).into_iter().enumerate() {
-        let (down, up) = (meta.lower[j] - inside[j], meta.upper[j] - inside[j]);
-        match lowest(slopes[j] - error, slopes[j] + error, down, up) {
+        match lowest(slopes[j] - error, slopes[j] + error, down[j], up[j]) {
             Some(term) => bound.add(term),
             None => return Ok(None),
         }
     }
-    Ok(bound.below())
+    // Outside the implied box the objective is above f(x).
+    let level = point.objective - 16.0 * f64::EPSILON * point.objective.abs();
+    Ok(bound.below().map(|below| below.min(level)))
 }
 
 /// The least of s·v over s in [least, most], v in [down, up]; `None` where it is −∞.

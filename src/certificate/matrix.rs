@@ -1,5 +1,6 @@
 //! Sparse symmetric matrices put together from entries.
 
+use crate::linear_algebra::blocks::BlockSolver;
 use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
 use crate::model::Pattern;
 
@@ -7,7 +8,13 @@ use crate::model::Pattern;
 pub(super) struct Symmetric {
     places: Vec<usize>,
     values: Vec<f64>,
-    solver: SymmetricSolver,
+    solver: Solver,
+}
+
+/// Many small blocks by themselves, anything else as a whole.
+enum Solver {
+    Blocks(BlockSolver),
+    Sparse(SymmetricSolver),
 }
 
 impl Symmetric {
@@ -18,7 +25,10 @@ impl Symmetric {
         let pattern = Pattern::from_positions(order, &mut sorted);
         let place = |(row, column): (u32, u32)| pattern.position(row as usize, column).unwrap_or_default();
         let places = positions.iter().map(lower).map(place).collect();
-        let solver = SymmetricSolver::new(&pattern.offsets, &pattern.columns)?;
+        let solver = match BlockSolver::new(&pattern.offsets, &pattern.columns) {
+            Some(blocks) => Solver::Blocks(blocks),
+            None => Solver::Sparse(SymmetricSolver::new(&pattern.offsets, &pattern.columns)?),
+        };
         Ok(Symmetric { places, values: vec![0.0; pattern.len()], solver })
     }
 
@@ -28,13 +38,19 @@ impl Symmetric {
         for (&place, entry) in self.places.iter().zip(entries) {
             self.values[place] += entry;
         }
-        self.solver.factor(&self.values)
+        match &mut self.solver {
+            Solver::Blocks(solver) => solver.factor(&self.values),
+            Solver::Sparse(solver) => solver.factor(&self.values),
+        }
     }
 
     /// Solves with the factors found last.
     pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         let mut x = vec![0.0; right.len()];
-        self.solver.solve(right, &mut x)?;
+        match &self.solver {
+            Solver::Blocks(solver) => solver.solve(right, &mut x),
+            Solver::Sparse(solver) => solver.solve(right, &mut x)?,
+        }
         Ok(x)
     }
 }

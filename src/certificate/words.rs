@@ -60,6 +60,11 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
 fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {
     let sizes =
         format!("({:.1e} of the objective's scale, accepted {:.1e})", certificate.dual_infeasibility, tolerances.optimality);
+    if super::lost_in_rounding(point, multipliers) > tolerances.optimality && certificate.is_feasible(tolerances) {
+        return "only multipliers so large that their balance is lost in rounding would hold the point: the gradients of the active \
+                limits depend on one another, so no multipliers may exist here although the point may be a minimum"
+            .into();
+    }
     let place = super::worst_slope(point, multipliers, None).0;
     let name = match place {
         Some(Place::Variable(j)) => point.variable(j),
@@ -68,7 +73,7 @@ fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate
     let mut text = format!("the objective still falls along {name} {sizes}");
     if certificate.multipliers_not_unique && certificate.is_feasible(tolerances) {
         text.push_str(
-            "; the gradients of the active limits depend on one another, so no multipliers may exist here although the point is a minimum",
+            "; the gradients of the active limits depend on one another, so no multipliers may exist here although the point may be a minimum",
         );
     }
     text

@@ -186,6 +186,9 @@ pub struct Check {
     pub file: PathBuf,
     #[command(flatten)]
     pub changes: Changes,
+    /// Print what was found as one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]

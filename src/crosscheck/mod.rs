@@ -11,6 +11,7 @@ mod infeasible;
 mod multistart;
 mod restart;
 mod seeds;
+mod settle;
 #[cfg(test)]
 mod tests;
 mod types;
@@ -91,6 +92,7 @@ fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: 
     if answers.iter().any(passes) {
         return verdict::certified(referee, answers);
     }
+    answers.iter_mut().for_each(|answer| settle::settle(referee, answer));
     if referee.clock.is_over() {
         return verdict::undecided(referee, answers);
     }

@@ -1,22 +1,19 @@
 //! Repeatable random numbers and starting points.
 
+use crate::math::split_mix::SplitMix;
 use crate::model::Meta;
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same seed gives the same points on every machine.
-pub(super) struct Seeds(u64);
+/// A seeded stream of numbers and points.
+pub(super) struct Seeds(SplitMix);
 
 impl Seeds {
     pub(super) fn new(seed: u64) -> Self {
-        Seeds(seed)
+        Seeds(SplitMix::new(seed))
     }
 
     /// Uniform in [0, 1).
     pub(super) fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.0.uniform()
     }
 
     /// A point of the box: uniform between two bounds, in the logarithm where they are positive and far apart; elsewhere some

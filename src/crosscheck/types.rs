@@ -147,6 +147,8 @@ pub struct Outcome {
     pub runaway: Vec<usize>,
     /// Distinct minima of the multi-start, best first.
     pub minima: Vec<Minimum>,
+    /// Two backends hold certified points of equal value, apart from one another.
+    pub minimiser_is_not_unique: bool,
     /// A backend holds a feasible point better than the certified best answer.
     pub better_point_elsewhere: bool,
 }

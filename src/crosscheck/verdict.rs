@@ -10,6 +10,9 @@ use crate::certificate::{Scope, lower_bound};
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
 
+/// Certified points of equal value this far apart, relative, are two minimisers.
+const APART: f64 = 1e-3;
+
 /// The best answer's place.
 pub(super) fn best(referee: &Referee<'_>, answers: &[Answer]) -> Option<usize> {
     (0..answers.len()).reduce(|best, k| if referee.is_better(&answers[k], &answers[best]) { k } else { best })
@@ -30,6 +33,7 @@ pub(super) fn certified(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome 
     let mut outcome = standing(referee, answers, Status::Certified);
     outcome.scope = Scope::of(referee.task.class);
     outcome.agreement = agreement(&outcome);
+    outcome.minimiser_is_not_unique = outcome.agreement.is_some_and(|found| found.agree && found.variable_difference > APART);
     if let Some(best) = outcome.best {
         outcome.better_point_elsewhere = better_elsewhere(referee, &outcome.answers, &outcome.answers[best]).is_some();
     }
@@ -134,19 +138,27 @@ fn agreement(outcome: &Outcome) -> Option<Agreement> {
         let pairs = answer.solution.x.iter().zip(&best.solution.x).zip(&reference.variable_scales);
         variable_difference = pairs.fold(variable_difference, |most, ((a, b), d)| most.max((a - b).abs() / d));
     }
-    let agree = certified && objective_difference <= AGREEMENT * reference.sigma.max(f64::MIN_POSITIVE);
+    let rounding = 64.0 * f64::EPSILON * reference.objective.abs();
+    let agree = certified && objective_difference <= (AGREEMENT * reference.sigma).max(rounding);
     Some(Agreement { agree, objective_difference, variable_difference })
 }
 
-/// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.
+/// The best rigorous bound any certified answer's multipliers give.
 fn bound(referee: &Referee<'_>, outcome: &Outcome) -> Option<f64> {
+    let certified = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    let bounds = outcome.answers.iter().filter(certified).filter_map(|answer| bound_at(referee, &answer.solution.x));
+    bounds.reduce(f64::max)
+}
+
+/// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.
+fn bound_at(referee: &Referee<'_>, x: &[f64]) -> Option<f64> {
     let task = referee.task;
+    let certify = |model, x: &[f64]| crate::certificate::certify(model, task.class, x, None, referee.tolerances).ok();
     let Some(other) = task.substitution else {
-        return lower_bound(task.model, &outcome.x, &outcome.certificate.as_ref()?.row_multipliers).ok()?;
+        return lower_bound(task.model, x, &certify(task.model, x)?.row_multipliers).ok()?;
     };
-    let z = other.inward(&outcome.x);
-    let judged = crate::certificate::certify(other.model(), task.class, &z, None, referee.tolerances).ok()?;
-    let bound = lower_bound(other.model(), &z, &judged.row_multipliers).ok()??;
+    let z = other.inward(x);
+    let bound = lower_bound(other.model(), &z, &certify(other.model(), &z)?.row_multipliers).ok()??;
     let outward = other.outward_objective(bound);
     // The way back is a library function: a few last digits are given away.
     Some(if outward == bound { bound } else { outward - 8.0 * f64::EPSILON * outward.abs() })

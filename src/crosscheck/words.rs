@@ -9,8 +9,7 @@ const SHOWN: usize = 6;
 
 pub(super) fn certified(outcome: &mut Outcome) {
     let reach = if outcome.scope == Scope::Global { "the global minimum" } else { "a local minimum" };
-    let mut message =
-        format!("The point is {reach}: feasible, stationary, and the objective bends up along every direction left.");
+    let mut message = format!("The point is {reach}: feasible, stationary, and no direction the limits allow leads down.");
     if outcome.better_point_elsewhere {
         message.push_str(" But a backend holds a feasible point with a lower objective, which is not certified.");
         outcome.remedy = Some("run again with --start from that answer, or with --starts N".into());
@@ -27,8 +26,16 @@ pub(super) fn certified(outcome: &mut Outcome) {
         message.push_str(&format!(" The backends ended at different minima ({apart:.3e} apart in the objective)."));
         outcome.remedy.get_or_insert_with(|| "look for the best one with --starts N".into());
     }
-    let remarks = outcome.certificate.iter().flat_map(|certificate| &certificate.messages).map(|text| sentence(text));
-    message.extend(remarks);
+    // One of the remarks says the minimiser may not be unique; where another is shown, this says more.
+    let known = |text: &&String| !(outcome.minimiser_is_not_unique && text.contains("may not be unique"));
+    let remarks = outcome.certificate.iter().flat_map(|certificate| &certificate.messages).filter(known);
+    message.extend(remarks.map(|text| sentence(text)));
+    if outcome.minimiser_is_not_unique {
+        message.push_str(" The minimiser is not unique: the backends hold different points of equal value.");
+    }
+    if outcome.scope == Scope::Global && outcome.lower_bound.is_none() {
+        message.push_str(" No lower bound is printed: some variables are open on a side that no limit closes.");
+    }
     outcome.message = message;
 }
 
@@ -55,7 +62,8 @@ pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict:
     let side = |upper: bool| if upper { "upper" } else { "lower" };
     let bounds = conflict.bounds.iter().map(|&(j, upper)| format!("the {} bound of {}", side(upper), model.variable_name(j)));
     let all: Vec<_> = rows.into_iter().chain(bounds).collect();
-    let mut message = format!("The problem is {infeasible}: no point meets every limit, and this one misses them least.");
+    let reach = if outcome.scope == Scope::Global { "no point" } else { "no point nearby" };
+    let mut message = format!("The problem is {infeasible}: {reach} meets every limit, and this one misses them least.");
     match all.len() {
         0 => {}
         1 => message.push_str(&format!(" {} alone cannot be met.", capital(&all[0]))),
@@ -65,7 +73,7 @@ pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict:
     let meta = model.meta();
     let move_limit = |&(i, amount): &(usize, f64)| {
         let (word, limit) = if amount > 0.0 { ("raise", meta.row_upper[i]) } else { ("lower", meta.row_lower[i]) };
-        format!("{word} the limit of row {} from {limit} to {}", model.row_name(i), limit + amount)
+        format!("{word} the limit of row {} from {limit} to {}", model.row_name(i), twelve_digits(limit + amount))
     };
     let moves: Vec<_> = conflict.relaxations.iter().map(move_limit).collect();
     outcome.remedy = (!moves.is_empty()).then(|| format!("the least that would make it feasible: {}", list(&moves)));
@@ -97,10 +105,16 @@ pub(super) fn undecided(outcome: &mut Outcome) {
 /// Why an answer is not certified.
 fn why(answer: &Answer) -> String {
     let tests = answer.certificate.iter().flat_map(|certificate| certificate.messages.iter().cloned());
-    let all: Vec<_> =
-        answer.solution.invalid.iter().cloned().chain(tests.take(2)).chain([answer.solution.message.clone()]).collect();
+    let (message, invalid) = (&answer.solution.message, &answer.solution.invalid);
+    let untold = invalid.iter().filter(|invalid| !message.contains(invalid.as_str())).cloned();
+    let all: Vec<_> = untold.chain(tests.take(2)).chain([message.clone()]).collect();
     let all: Vec<_> = all.iter().map(|text| text.trim_end_matches('.')).filter(|text| !text.is_empty()).collect();
     all.join(" — ")
+}
+
+/// Without the last digits, which are rounding.
+fn twelve_digits(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 fn variables(referee: &Referee<'_>, places: &[usize]) -> String {

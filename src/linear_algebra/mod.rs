@@ -3,6 +3,9 @@
 //! A leaf: it knows index slices and values, nothing of models. Patterns are lower triangles compressed by rows,
 //! the layout of [`crate::model::Pattern`], so `SymmetricSolver::new(&pattern.offsets, &pattern.columns)` fits one.
 
+pub mod blocks;
+pub mod bunch_kaufman;
+pub mod cholesky;
 mod dense;
 mod symmetric;
 

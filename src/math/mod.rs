@@ -10,6 +10,7 @@ pub mod polynomial;
 pub mod quadrature;
 pub mod rotation;
 pub mod special;
+pub mod split_mix;
 
 pub use determinant::{determinant, inverse, signed_area, signed_volume};
 pub use kronecker::kronecker;

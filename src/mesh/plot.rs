@@ -22,8 +22,9 @@ pub struct Stroke {
 const SIZE: f64 = 1000.0;
 const MARGIN: f64 = 30.0;
 const LEGEND: f64 = 60.0;
-/// Width of the tallest section, unless true to scale it is wider.
+/// Width of the tallest section at most, and at most this part of the mean rib, so that a dense network stays legible.
 const WIDEST: f64 = 9.0;
+const WIDEST_PART: f64 = 0.3;
 
 /// Draws ribs seen from (1, 1, 1), far ones first. Widths are in one scale throughout, given in the legend.
 ///
@@ -35,7 +36,8 @@ const WIDEST: f64 = 9.0;
 pub fn svg(strokes: &[Stroke], title: &str) -> String {
     let view = View::of(strokes);
     let tallest = strokes.iter().flat_map(|stroke| stroke.heights).filter(|h| h.is_finite()).fold(0.0, f64::max);
-    let thickness = if tallest > 0.0 { (WIDEST / tallest).max(view.scale) } else { 1.0 };
+    let widest = WIDEST.min(WIDEST_PART * view.mean_length(strokes));
+    let thickness = if tallest > 0.0 { widest / tallest } else { 1.0 };
     let mut order: Vec<&Stroke> = strokes.iter().collect();
     let nearness = |stroke: &Stroke| (stroke.ends[0] + stroke.ends[1]).sum();
     order.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
@@ -76,6 +78,14 @@ impl View {
         View { scale, shift, width: (size.x * scale + 2.0 * MARGIN).max(420.0), height: size.y * scale + 2.0 * MARGIN }
     }
 
+    fn mean_length(&self, strokes: &[Stroke]) -> f64 {
+        let length = |stroke: &Stroke| {
+            let [p, q] = stroke.ends.map(isometric);
+            (q[0] - p[0]).hypot(q[1] - p[1]) * self.scale
+        };
+        strokes.iter().map(length).sum::<f64>() / strokes.len().max(1) as f64
+    }
+
     fn place(&self, point: Vector) -> [f64; 2] {
         let p = isometric(point);
         [p[0] * self.scale + self.shift[0], p[1] * self.scale + self.shift[1]]
@@ -92,7 +102,7 @@ fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64) {
     let (p, q) = (view.place(stroke.ends[0]), view.place(stroke.ends[1]));
     let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
     let length = dx.hypot(dy).max(1e-9);
-    let half = stroke.heights.map(|h| if h.is_finite() { (h * thickness / 2.0).max(0.4) } else { 0.4 });
+    let half = stroke.heights.map(|h| if h.is_finite() { (h * thickness / 2.0).max(0.3) } else { 0.3 });
     let (nx, ny) = (-dy / length, dx / length);
     let corner = |at: [f64; 2], by: f64| format!("{:.1},{:.1}", at[0] + nx * by, at[1] + ny * by);
     let corners = [corner(p, half[0]), corner(q, half[1]), corner(q, -half[1]), corner(p, -half[0])].join(" ");
@@ -100,7 +110,7 @@ fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64) {
     let label = escape(&stroke.label);
     let _ = writeln!(
         text,
-        "<polygon points=\"{corners}\" fill=\"{colour}\" stroke=\"white\" stroke-width=\"0.3\"><title>{label}</title></polygon>"
+        "<polygon points=\"{corners}\" fill=\"{colour}\" stroke=\"white\" stroke-width=\"0.2\"><title>{label}</title></polygon>"
     );
 }
 

@@ -1,7 +1,8 @@
 //! The model assembled from a problem: affine parts and sums of elements.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use super::components::{Apart, Components, Members};
 use super::elements::{Group, Label};
 use super::{EvaluationError, Meta, Model};
 use crate::problem::Problem;
@@ -50,6 +51,8 @@ pub struct RibModel {
     pub(super) row_groups: Vec<Group>,
     /// Which declaration and which item each row comes from.
     pub(super) row_origin: Vec<RowOrigin>,
+    /// The components, once somebody asked.
+    pub(super) members: OnceLock<Option<Members>>,
 }
 
 /// Where a row comes from.
@@ -158,6 +161,11 @@ impl Model for RibModel {
         Err(self.invalid(groups, x, "second derivatives"))
     }
 
+    fn components(&self) -> Option<Box<dyn Components + '_>> {
+        let members = self.members.get_or_init(|| Members::of(self)).as_ref()?;
+        Some(Box::new(Apart { model: self, members }))
+    }
+
     fn variable_name(&self, j: usize) -> String {
         self.problem.variable_name(j)
     }
@@ -165,5 +173,10 @@ impl Model for RibModel {
     fn row_name(&self, i: usize) -> String {
         let RowOrigin { constraint, item } = self.row_origin[i];
         self.problem.row_name(constraint as usize, item as usize)
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        let constraint = self.row_origin.get(i)?.constraint as usize;
+        self.problem.constraints.get(constraint).map(|constraint| constraint.place.clone())
     }
 }

@@ -36,6 +36,17 @@ pub struct Group {
     hessian_slots: Vec<u32>,
 }
 
+/// One element with everything that belongs to it, for those who evaluate elements one by one.
+pub(super) struct View<'a> {
+    pub kernel: &'a dyn Kernel,
+    pub inputs: &'a [u32],
+    pub data: &'a [f64],
+    pub weight: f64,
+    pub label: Label,
+    /// `None` in the objective.
+    pub row: Option<u32>,
+}
+
 /// Working memory of one pass over a group.
 struct Scratch {
     x: Vec<f64>,
@@ -79,6 +90,23 @@ impl Group {
     /// Number of elements.
     pub fn len(&self) -> usize {
         self.weights.len()
+    }
+
+    /// A group of the same kernel, without elements.
+    pub fn empty_like(&self) -> Group {
+        Group::new(Arc::clone(&self.kernel))
+    }
+
+    /// The variables of one element.
+    pub fn inputs(&self, index: usize) -> &[u32] {
+        let k = self.kernel.inputs();
+        &self.inputs[index * k..(index + 1) * k]
+    }
+
+    /// One element.
+    pub(super) fn view(&self, index: usize) -> View<'_> {
+        let Element { weight, inputs, data, .. } = self.element(index);
+        View { kernel: self.kernel.as_ref(), inputs, data, weight, label: self.labels[index], row: self.rows.get(index).copied() }
     }
 
     fn element(&self, index: usize) -> Element<'_> {

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::Instant;
 
-use super::{EvaluationError, Meta, Model, Stop};
+use super::{Components, EvaluationError, Meta, Model, Stop};
 
 /// When a run must end. Checked before every evaluation, so that it holds inside line searches and foreign solvers too.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +61,11 @@ impl<'a> Evaluator<'a> {
         &self.budget
     }
 
+    /// Counts points that were evaluated past this guard, component by component.
+    pub fn count(&self, points: u64) {
+        self.evaluations.fetch_add(points, Relaxed);
+    }
+
     fn may_go_on(&self) -> Result<(), EvaluationError> {
         self.budget.check(self.evaluations()).map_err(EvaluationError::Stopped)
     }
@@ -112,6 +117,10 @@ impl Model for Evaluator<'_> {
         self.may_go_on()?;
         self.model.hessian(x, weight, y, values)?;
         self.guard(|_| "second derivatives".into(), values)
+    }
+
+    fn components(&self) -> Option<Box<dyn Components + '_>> {
+        self.model.components()
     }
 
     fn variable_name(&self, j: usize) -> String {

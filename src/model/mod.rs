@@ -8,8 +8,10 @@ mod assembled;
 pub mod augmented;
 pub mod bounds_only;
 pub mod class;
+pub mod components;
 pub mod derivative_check;
 pub mod differences;
+pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;
@@ -28,6 +30,7 @@ use thiserror::Error;
 pub use assemble::{AssemblyError, Classification, assemble, classify};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
+pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use pattern::Pattern;
@@ -91,6 +94,11 @@ pub trait Model: Sync {
     /// The values of `weight·∇²f + Σ y_i ∇²c_i` along [`Meta::hessian`], overwritten.
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
 
+    /// The model seen as independent small ones, where it falls apart and can be evaluated piece by piece.
+    fn components(&self) -> Option<Box<dyn Components + '_>> {
+        None
+    }
+
     /// The name of variable j, for messages.
     fn variable_name(&self, j: usize) -> String {
         format!("x[{}]", j + 1)
@@ -99,6 +107,11 @@ pub trait Model: Sync {
     /// The name of row i, for messages.
     fn row_name(&self, i: usize) -> String {
         format!("c{}", i + 1)
+    }
+
+    /// Where row i is declared, ready to print (`file.toml:12`), where that is known.
+    fn row_place(&self, _i: usize) -> Option<String> {
+        None
     }
 }
 

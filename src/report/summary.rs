@@ -6,7 +6,6 @@ use super::governing::{Governing, Group, Limit, per_cent};
 use super::number::{percent, short, significant};
 use super::text::{TextTable, count, listing};
 use super::{Findings, Volumes};
-use crate::certificate::Scope;
 use crate::crosscheck::{Answer, Conflict, Status};
 
 /// At most this many limits, rows or variables are shown one by one.
@@ -43,13 +42,7 @@ fn heading(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
 
 fn verdict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let outcome = findings.outcome;
-    let scope = match (outcome.status, outcome.scope) {
-        (Status::Certified, Scope::Global) => " (global minimum)",
-        (Status::Certified, Scope::Local) => " (local minimum)",
-        _ => "",
-    };
-    let scope = if findings.sign() < 0.0 { scope.replace("minimum", "maximum") } else { scope.into() };
-    writeln!(out, "\n{}{scope}: {}", outcome.status.as_str(), outcome.message)?;
+    writeln!(out, "\n{}: {}", outcome.status.as_str(), outcome.message)?;
     if let Some(remedy) = &outcome.remedy {
         writeln!(out, "what to do: {remedy}")?;
     }
@@ -175,7 +168,9 @@ fn governing(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     if certificate.is_some_and(|certificate| certificate.multipliers_not_unique) {
         writeln!(out, "  The active limits are dependent: these multipliers are one choice of many.")?;
     }
-    if certificate.is_some_and(|certificate| certificate.minimiser_may_not_be_unique) {
+    if findings.outcome.minimiser_is_not_unique {
+        writeln!(out, "  The minimiser is not unique: the backends hold different points of equal value.")?;
+    } else if certificate.is_some_and(|certificate| certificate.minimiser_may_not_be_unique) {
         writeln!(out, "  The minimiser may not be unique: the objective is flat in some direction.")?;
     }
     Ok(())
@@ -214,7 +209,8 @@ fn conflict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     }
     if !rows.is_empty() {
         let set = if *minimal { "These conflict, and no part of them does" } else { "These conflict" };
-        let row_names = rows.iter().map(|&i| model.row_name(i));
+        let place = |i: usize| model.row_place(i).map_or(String::new(), |place| format!(" ({place})"));
+        let row_names = rows.iter().map(|&i| model.row_name(i) + &place(i));
         let ends = bounds.iter().map(|&(j, upper)| {
             let side = if upper { "upper" } else { "lower" };
             format!("{side} bound of {}", model.variable_name(j))

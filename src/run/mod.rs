@@ -8,6 +8,7 @@ pub mod folder;
 mod pictures;
 pub mod section;
 pub mod solve;
+pub mod start;
 pub mod subject;
 pub mod verify;
 

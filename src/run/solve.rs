@@ -8,6 +8,7 @@ use std::sync::atomic::AtomicBool;
 use super::choice::{Choice, refuse_if_none_accepts};
 use super::folder::{Folder, FolderError, default_folder};
 use super::pictures;
+use super::start::in_domain;
 use super::{RunError, Subject, Watcher};
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
@@ -70,6 +71,8 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     refuse_if_none_accepts(&request.choices, subject.model())?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings)?;
+    let (start, remark) = in_domain(subject.model(), start);
+    about.warnings.extend(remark);
     let default = default_folder(Path::new(&about.file));
     let folder = Folder::open(request.out.unwrap_or(&default))?;
     folder.remove_old_logs()?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{RunError, Subject};
-use crate::certificate::{Tolerances, certify};
+use crate::certificate::{Certificate, Scope, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
 use crate::report::answer::EarlierAnswer;
 
@@ -20,7 +20,7 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
         Ok(certificate) => Outcome {
             status: if certificate.certified { Status::Certified } else { Status::Uncertified },
             scope: certificate.scope,
-            message: if certificate.certified { "the point is a certified minimum" } else { "the point does not pass" }.into(),
+            message: message(&certificate, subject.sign()),
             objective: Some(certificate.objective),
             certificate: Some(certificate),
             x,
@@ -28,4 +28,13 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
         },
     };
     Ok(outcome)
+}
+
+fn message(certificate: &Certificate, sign: f64) -> String {
+    let optimum = if sign < 0.0 { "maximum" } else { "minimum" };
+    match (certificate.certified, certificate.scope) {
+        (true, Scope::Global) => format!("The point is the global {optimum}."),
+        (true, Scope::Local) => format!("The point is a local {optimum}."),
+        (false, _) => "The point does not pass the certificate.".into(),
+    }
 }

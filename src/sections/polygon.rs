@@ -40,15 +40,19 @@ impl Kind for Polygon {
         ]
     }
 
-    /// Every property is its value at scale 1 times powers of the scales.
+    /// Every property is its value at scale 1 times powers of the scales. `scale` of two scales is their geometric mean.
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
         let (x, y) = match *given.dimensions {
             [scale] => (scale, scale),
             [x, y] => (x, y),
             _ => return None,
         };
-        if given.form.dimensions.contains(&name) {
-            return Some(if name == "scale_y" { y } else { x });
+        match name {
+            "scale_x" => return Some(x),
+            "scale_y" => return Some(y),
+            "scale" if given.dimensions.len() == 1 => return Some(x),
+            "scale" => return Some(monomial(graph, 1.0, &[(x, 0.5), (y, 0.5)])),
+            _ => {}
         }
         let shape = Shape::new(given.outline.to_vec(), Vec::new()).ok()?;
         let own = shape.properties();

@@ -114,6 +114,15 @@ fn torsion(graph: &mut Graph, given: &Given, line: &Centreline) -> Option<NodeId
     Some(monomial(graph, 4.0 * enclosed * enclosed, &[(sum, -1.0)]))
 }
 
+/// Σ length·thickness/Σ length
+fn mean_thickness(graph: &mut Graph, given: &Given, line: &Centreline) -> Option<NodeId> {
+    let mut terms = Vec::with_capacity(line.segments());
+    for segment in 0..line.segments() {
+        terms.push(graph.scale(line.segment_length(segment) / line.length(), thickness(given, segment)?));
+    }
+    Some(graph.sum(&terms))
+}
+
 impl Kind for Polyline {
     fn name(&self) -> &'static str {
         "polyline"
@@ -128,7 +137,7 @@ impl Kind for Polyline {
     }
 
     /// `clear` is the shortest side of the outline along a segment: the outline folds over where it is not positive.
-    /// J neglects the corners (thin walls).
+    /// J neglects the corners (thin walls). `thickness` of several is their mean over the length.
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
         if let Some(at) = given.form.dimensions.iter().position(|known| *known == name) {
             return Some(given.dimensions[at]);
@@ -136,6 +145,12 @@ impl Kind for Polyline {
         let line = centreline(given.outline)?;
         if !uniform(given.form) && line.segments() != given.form.dimensions.len() {
             return None;
+        }
+        if let Some(segment) = EACH.iter().position(|known| *known == name) {
+            return (segment < line.segments()).then(|| thickness(given, segment)).flatten();
+        }
+        if name == "thickness" {
+            return mean_thickness(graph, given, &line);
         }
         if name == "J" {
             return torsion(graph, given, &line);

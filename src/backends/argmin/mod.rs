@@ -2,7 +2,9 @@
 //! our own, watched by an argmin observer.
 
 mod augmented_lagrangian;
+mod components;
 mod interior_point;
+mod opinions;
 mod state;
 #[cfg(test)]
 pub(crate) mod test_models;
@@ -18,6 +20,7 @@ use argmin::core::{Executor, Solver};
 use super::{Backend, Iteration, Job, Solution, Termination};
 use crate::model::{EvaluationError, Evaluator, Model};
 use augmented_lagrangian::AugmentedLagrangian;
+use components::Components;
 use interior_point::InteriorPoint;
 use state::{Conclusion, NlpState, Watch};
 
@@ -54,9 +57,17 @@ impl Backend for Argmin {
         let evaluator = Evaluator::new(model, job.budget);
         let (algorithm, finished) = match job.algorithm {
             AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, augmented_lagrangian(&evaluator, job)),
+            _ if job.start_multipliers.is_none()
+                && let Some(pieces) = components::fall_apart(&evaluator) =>
+            {
+                let solver = Components::new(pieces.as_ref(), &evaluator, job.start);
+                (INTERIOR_POINT, run(solver, &evaluator, job))
+            }
             _ => {
                 let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
-                (INTERIOR_POINT, run(solver, &evaluator, job))
+                let found = run(solver, &evaluator, job);
+                let is_auto = job.algorithm == "auto";
+                (INTERIOR_POINT, if is_auto { opinions::better(&evaluator, job, found) } else { found })
             }
         };
         solution(algorithm, finished, &evaluator, began)

@@ -4,6 +4,7 @@ use super::attempt::{End, SEED, run};
 use super::form::Form;
 use super::plan::{From, Plan, Step, Unit};
 use super::watch::Watch;
+use crate::math::split_mix::SplitMix;
 use crate::model::scaled::{Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
@@ -155,14 +156,11 @@ fn clamp(mut x: Vec<f64>, meta: &Meta) -> Vec<f64> {
     x
 }
 
-/// `x` moved by up to ±share of each variable's size, always in the same way (SplitMix64).
+/// `x` moved by up to ±share of each variable's size, always in the same way.
 fn nudged(mut x: Vec<f64>, share: f64, meta: &Meta) -> Vec<f64> {
-    let mut state = u64::from(SEED);
+    let mut random = SplitMix::new(u64::from(SEED));
     for (j, value) in x.iter_mut().enumerate() {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        let uniform = ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
+        let uniform = random.uniform();
         let room = meta.upper[j] - meta.lower[j];
         let size = if *value == 0.0 { room.min(1.0) } else { value.abs().min(room) };
         *value += share * size * (2.0 * uniform - 1.0);

@@ -55,9 +55,9 @@ impl Constraints {
 
     /// Puts free vertices onto a surface; sliding ones keep to their curves.
     pub fn project(&self, positions: &mut [Vector], surface: &Surface) {
-        for v in 0..positions.len() {
+        for (v, position) in positions.iter_mut().enumerate() {
             if !self.sliding[v] && !self.neighbours(v).is_empty() {
-                positions[v] = surface.nearest(&positions[v]).unwrap_or(positions[v]);
+                *position = surface.nearest(position).unwrap_or(*position);
             }
         }
     }

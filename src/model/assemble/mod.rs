@@ -5,12 +5,13 @@ mod facts;
 mod groups;
 mod lower;
 mod plan;
+mod profile;
 mod sum;
 mod survey;
 mod template;
 mod walk;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
@@ -217,5 +218,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         objective_groups,
         row_groups,
         row_origin: rows.origin,
+        members: OnceLock::new(),
     }
 }

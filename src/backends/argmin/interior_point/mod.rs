@@ -43,6 +43,7 @@ use attempts::Attempts;
 use begin::Beginning;
 use engine::{Ending, Engine};
 use form::Source;
+pub(super) use start::towards_middle;
 
 /// A primal-dual interior point with a filter line search.
 pub(super) struct InteriorPoint<'a> {
@@ -114,6 +115,18 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for InteriorPoint<'a> {
         };
         Ok((state, None))
     }
+}
+
+/// Runs to the end without an executor, for components of a larger model. `None`: no minimum was reached.
+pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point> {
+    let mut engine = Engine::new(Source::Given(model), Beginning::at(start)).ok()?;
+    let ending = loop {
+        if let Some(ending) = engine.step().ok()? {
+            break ending;
+        }
+    };
+    let (_, point) = engine.conclude(&ending);
+    matches!(ending, Ending::Optimal | Ending::Acceptable).then_some(point)
 }
 
 fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {

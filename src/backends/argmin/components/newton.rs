@@ -1,0 +1,147 @@
+//! One Newton step of the barrier problem, slacks and rows eliminated: a matrix of the order of the variables.
+//!
+//! ```text
+//! (W + Σ_x + δ + Aᵀ Σ_s A)·dx = −∇φ_x − Aᵀ(∇φ_s + Σ_s·(c − s))      ds = A·dx + (c − s)      y⁺ = Σ_s·ds + ∇φ_s
+//! ```
+//! The matrix is positive definite exactly where the whole KKT matrix has the inertia of a minimum: there are no equalities.
+
+use super::arena::{Header, Piece};
+use super::barrier::{distances, force};
+use super::frame::Frame;
+use crate::linear_algebra::cholesky;
+
+/// First, smallest and largest regularisation δ, and its factors (Wächter & Biegler 2006, Algorithm IC).
+const FIRST: f64 = 1e-4;
+const SMALLEST: f64 = 1e-12;
+const LARGEST: f64 = 1e12;
+const DECREASE: f64 = 1.0 / 3.0;
+const INCREASE: f64 = 8.0;
+
+/// Room for one step; one per thread.
+#[derive(Default)]
+pub(super) struct Newton {
+    /// Step of w and of the bounds' multipliers.
+    pub w: Vec<f64>,
+    pub z_lower: Vec<f64>,
+    pub z_upper: Vec<f64>,
+    /// The rows' multipliers after a full step.
+    pub y: Vec<f64>,
+    /// ∇φ, for w.
+    pub slope: Vec<f64>,
+    sigma: Vec<f64>,
+    matrix: Vec<f64>,
+    factor: Vec<f64>,
+}
+
+impl Newton {
+    /// Computes the step at the piece's iterate, derivatives being in the frame. `false`: no regularisation helps.
+    pub fn compute(&mut self, frame: &Frame<'_>, piece: &mut Piece<'_>) -> bool {
+        self.barrier_terms(frame, piece);
+        self.condense(frame);
+        if !self.factorise(frame, piece.header) {
+            return false;
+        }
+        self.solve(frame, piece);
+        self.multiplier_steps(frame, piece);
+        true
+    }
+
+    fn barrier_terms(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+        self.slope.clear();
+        self.sigma.clear();
+        for (at, &w) in piece.w.iter().enumerate() {
+            let (below, above) = distances(w, frame.lower[at], frame.upper[at]);
+            let mu = piece.header.mu;
+            let own = frame.gradient.get(at).copied().unwrap_or(0.0);
+            self.slope.push(own - force(mu, below) + force(mu, above));
+            self.sigma.push(force(piece.z_lower[at], below) + force(piece.z_upper[at], above));
+        }
+    }
+
+    fn condense(&mut self, frame: &Frame<'_>) {
+        let n = frame.n;
+        self.matrix.clear();
+        self.matrix.extend_from_slice(&frame.hessian);
+        for j in 0..n {
+            self.matrix[j * n + j] += self.sigma[j];
+        }
+        for (row, &sigma) in frame.jacobian.chunks_exact(n.max(1)).zip(&self.sigma[n..]) {
+            for (j, &slope) in row.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+                let factor = sigma * slope;
+                for (entry, other) in self.matrix[j * n..=j * n + j].iter_mut().zip(row) {
+                    *entry += factor * other;
+                }
+            }
+        }
+        for j in (0..n).filter(|&j| frame.lower[j] == frame.upper[j]) {
+            self.hold(n, j);
+        }
+    }
+
+    /// Takes a fixed variable out.
+    fn hold(&mut self, n: usize, j: usize) {
+        for k in 0..n {
+            self.matrix[j.max(k) * n + j.min(k)] = 0.0;
+        }
+        self.matrix[j * n + j] = 1.0;
+    }
+
+    fn factorise(&mut self, frame: &Frame<'_>, header: &mut Header) -> bool {
+        let n = frame.n;
+        let mut delta = 0.0;
+        loop {
+            self.factor.clear();
+            self.factor.extend_from_slice(&self.matrix);
+            for j in 0..n {
+                self.factor[j * n + j] += delta;
+            }
+            if cholesky::factor(&mut self.factor, n) {
+                if delta > 0.0 {
+                    header.regularisation = delta;
+                }
+                return true;
+            }
+            delta = match (delta, header.regularisation) {
+                (0.0, 0.0) => FIRST,
+                (0.0, last) => (last * DECREASE).max(SMALLEST),
+                (now, _) => now * INCREASE,
+            };
+            if delta > LARGEST {
+                return false;
+            }
+        }
+    }
+
+    fn solve(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+        let n = frame.n;
+        self.w.clear();
+        self.w.extend(self.slope[..n].iter().map(|slope| -slope));
+        let residual = |i: usize| frame.rows[i] - piece.w[n + i];
+        for (i, row) in frame.jacobian.chunks_exact(n.max(1)).enumerate() {
+            let push = self.slope[n + i] + self.sigma[n + i] * residual(i);
+            self.w.iter_mut().zip(row).for_each(|(right, slope)| *right -= slope * push);
+        }
+        for j in (0..n).filter(|&j| frame.lower[j] == frame.upper[j]) {
+            self.w[j] = 0.0;
+        }
+        cholesky::solve(&self.factor, &mut self.w);
+        self.y.clear();
+        for (i, row) in frame.jacobian.chunks_exact(n.max(1)).enumerate() {
+            let step = row.iter().zip(&self.w).map(|(slope, dx)| slope * dx).sum::<f64>() + residual(i);
+            self.y.push(self.sigma[n + i] * step + self.slope[n + i]);
+            self.w.push(step);
+        }
+    }
+
+    fn multiplier_steps(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+        self.z_lower.clear();
+        self.z_upper.clear();
+        for (at, &step) in self.w.iter().enumerate() {
+            let (below, above) = distances(piece.w[at], frame.lower[at], frame.upper[at]);
+            let mu = piece.header.mu;
+            let (lower, upper) = (piece.z_lower[at], piece.z_upper[at]);
+            self.z_lower.push(force(mu - lower * step, below) - lower);
+            self.z_upper.push(force(mu + upper * step, above) - upper);
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Bounds that follow from the rows and from an objective level, for convex models: each convex row lies above its tangent, so
+//! that every tangent is a linear row all feasible points meet; bounds are tightened over those rows, variable by variable
+//! (feasibility-based bound tightening), and rounded outwards.
+
+use super::point::Point;
+
+/// Sweeps over all rows at the most.
+const SWEEPS: usize = 12;
+/// Slack of every linear row, relative to the magnitudes it is summed from: far more than rounding.
+const SLACK: f64 = 1e-9;
+
+/// A linear row lower ≤ Σ coefficient·v ≤ upper in v = x − x̂.
+struct Line {
+    entries: Vec<(usize, f64)>,
+    lower: f64,
+    upper: f64,
+    magnitude: f64,
+}
+
+/// Bounds (lower, upper) of v = x − x̂ for every feasible x with f(x) ≤ f(x̂). The model must be convex.
+pub(super) fn around(point: &Point<'_>) -> (Vec<f64>, Vec<f64>) {
+    let meta = point.meta();
+    let difference = |bounds: &[f64]| bounds.iter().zip(point.x).map(|(bound, x)| bound - x).collect::<Vec<_>>();
+    let (mut lower, mut upper) = (difference(&meta.lower), difference(&meta.upper));
+    let lines = lines(point);
+    for _ in 0..SWEEPS {
+        let mut changed = false;
+        for line in &lines {
+            changed |= tighten(line, &mut lower, &mut upper);
+        }
+        if !changed {
+            break;
+        }
+    }
+    (lower, upper)
+}
+
+fn lines(point: &Point<'_>) -> Vec<Line> {
+    let meta = point.meta();
+    let row = |i: usize| {
+        let entries = meta.jacobian.range(i).map(|at| (meta.jacobian.columns[at] as usize, point.jacobian[at]));
+        let value = point.rows[i];
+        let limits = [meta.row_lower[i], meta.row_upper[i]].into_iter().filter(|limit| limit.is_finite());
+        let magnitude = limits.fold(value.abs(), |most: f64, limit| most.max(limit.abs())) + point.slopes[i];
+        Line {
+            entries: entries.filter(|entry| entry.1 != 0.0).collect(),
+            lower: meta.row_lower[i] - value,
+            upper: meta.row_upper[i] - value,
+            magnitude,
+        }
+    };
+    let gradient = point.gradient.iter().copied().enumerate().filter(|entry| entry.1 != 0.0).collect();
+    let magnitude = point.objective.abs() + point.scale();
+    let objective = Line { entries: gradient, lower: f64::NEG_INFINITY, upper: 0.0, magnitude };
+    (0..meta.rows()).map(row).chain([objective]).filter(|line| line.magnitude.is_finite()).collect()
+}
+
+/// The least and the most of coefficient·v.
+fn range(coefficient: f64, lower: f64, upper: f64) -> (f64, f64) {
+    if coefficient > 0.0 { (coefficient * lower, coefficient * upper) } else { (coefficient * upper, coefficient * lower) }
+}
+
+/// Tightens open bounds only: those that are closed are the user's, and exact. True where one was closed.
+fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64]) -> bool {
+    // Finite part, its magnitude and the number of open ends, from below and from above.
+    let (mut least, mut most) = ((0.0, 0usize), (0.0, 0usize));
+    let mut magnitude = line.magnitude;
+    for &(j, coefficient) in &line.entries {
+        let (low, high) = range(coefficient, lower[j], upper[j]);
+        for (end, sum) in [(low, &mut least), (high, &mut most)] {
+            if end.is_finite() {
+                sum.0 += end;
+                magnitude += end.abs();
+            } else {
+                sum.1 += 1;
+            }
+        }
+    }
+    let slack = SLACK * magnitude;
+    let mut changed = false;
+    for &(j, coefficient) in &line.entries {
+        let (low, high) = range(coefficient, lower[j], upper[j]);
+        // What the others leave, where this variable is the only open one among them or none is.
+        let rest = |own: f64, sum: (f64, usize)| match (own.is_finite(), sum.1) {
+            (true, 0) => Some(sum.0 - own),
+            (false, 1) => Some(sum.0),
+            _ => None,
+        };
+        let at_most = rest(low, least).map(|rest| line.upper - rest + slack).filter(|end| end.is_finite());
+        let at_least = rest(high, most).map(|rest| line.lower - rest - slack).filter(|end| end.is_finite());
+        let (new_lower, new_upper) = if coefficient > 0.0 { (at_least, at_most) } else { (at_most, at_least) };
+        if let Some(end) = new_upper.map(|end| outward(end / coefficient, 1.0)).filter(|_| upper[j] == f64::INFINITY) {
+            (upper[j], changed) = (end.max(0.0), true);
+        }
+        if let Some(end) = new_lower.map(|end| outward(end / coefficient, -1.0)).filter(|_| lower[j] == f64::NEG_INFINITY) {
+            (lower[j], changed) = (end.min(0.0), true);
+        }
+        if changed {
+            // Sums have changed: the next sweep goes on.
+            return true;
+        }
+    }
+    changed
+}
+
+fn outward(value: f64, sign: f64) -> f64 {
+    value + sign * SLACK * value.abs()
+}

@@ -1,0 +1,59 @@
+//! The last of a violation taken off an answer no certificate will pass: where no multipliers exist, an objective bought with
+//! a violation within the tolerance may be far below the true minimum.
+
+use super::Answer;
+use super::attempt::Referee;
+
+/// Steps at the most; where gradients vanish each one takes off only a share of the way.
+const STEPS: usize = 400;
+/// Work in all, in entries of the Jacobian.
+const WORK: usize = 20_000_000;
+
+/// Projects a feasible answer's point onto its most violated row, again and again, until every row is met exactly (Kaczmarz'
+/// method, in the variables' own sizes). Keeps the point only where the violation became less.
+pub(super) fn settle(referee: &Referee<'_>, answer: &mut Answer) {
+    let Some(before) = answer.certificate.as_ref().filter(|certificate| referee.is_feasible(answer) && !certificate.certified)
+    else {
+        return;
+    };
+    if before.primal_infeasibility == 0.0 {
+        return;
+    }
+    let (scales, violation) = (before.variable_scales.clone(), before.primal_infeasibility);
+    let Some(x) = projected(referee, &answer.solution.x, &scales) else { return };
+    let Ok(certificate) = referee.judge.certify(&x, None) else { return };
+    if certificate.primal_infeasibility < violation {
+        answer.objective = Some(certificate.objective);
+        answer.certificate = Some(certificate);
+        answer.solution.x = x;
+        answer.solution.multipliers = None;
+        answer.remarks.push("moved until it meets every limit to the last digit".into());
+    }
+}
+
+fn projected(referee: &Referee<'_>, x: &[f64], scales: &[f64]) -> Option<Vec<f64>> {
+    let (model, meta) = (referee.task.model, referee.task.model.meta());
+    let (mut x, mut rows, mut jacobian) = (x.to_vec(), vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+    for _ in 0..STEPS.min(WORK / (jacobian.len() + 1)) {
+        for (x, (lower, upper)) in x.iter_mut().zip(meta.lower.iter().zip(&meta.upper)) {
+            *x = x.max(*lower).min(*upper);
+        }
+        model.constraints(&x, &mut rows).ok()?;
+        let violation = |i: usize| (meta.row_lower[i] - rows[i]).max(0.0) - (rows[i] - meta.row_upper[i]).max(0.0);
+        let worst = (0..rows.len()).max_by(|&a, &b| violation(a).abs().total_cmp(&violation(b).abs()))?;
+        let lack = violation(worst);
+        if lack == 0.0 {
+            break;
+        }
+        model.jacobian(&x, &mut jacobian).ok()?;
+        let entries = || meta.jacobian.range(worst).map(|at| (meta.jacobian.columns[at] as usize, jacobian[at]));
+        let length: f64 = entries().map(|(j, slope)| (slope * scales[j]).powi(2)).sum();
+        if !(length > 0.0 && length.is_finite()) {
+            break;
+        }
+        for (j, slope) in entries() {
+            x[j] += lack * slope * scales[j] * scales[j] / length;
+        }
+    }
+    Some(x)
+}

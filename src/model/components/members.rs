@@ -1,0 +1,67 @@
+//! Which elements belong to which component, counted once for the whole model.
+
+use super::Partition;
+use crate::model::RibModel;
+use crate::model::elements::Group;
+
+/// Where an element is: its group (objective groups first, then row groups) and its place there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Member {
+    pub group: u32,
+    pub index: u32,
+}
+
+/// The components of a rib model with their elements.
+#[derive(Debug)]
+pub struct Members {
+    pub(super) partition: Partition,
+    offsets: Vec<u32>,
+    members: Vec<Member>,
+}
+
+impl Members {
+    /// The components; `None` where there is only one, or a row or an element has no variables.
+    pub(in crate::model) fn of(model: &RibModel) -> Option<Members> {
+        let meta = &model.meta;
+        let rows = (0..meta.rows()).map(|i| meta.jacobian.row(i));
+        let couplings = model.objective_groups.iter().flat_map(|group| (0..group.len()).map(|index| group.inputs(index)));
+        let partition = Partition::new(meta.variables(), rows, couplings)?;
+        if partition.len() < 2 || groups(model).any(|group| group.len() > 0 && group.inputs(0).is_empty()) {
+            return None;
+        }
+        let mut offsets = vec![0; partition.len() + 1];
+        let component = |group: &Group, index| partition.component(group.inputs(index)[0]) as usize;
+        for group in groups(model) {
+            (0..group.len()).for_each(|index| offsets[component(group, index) + 1] += 1);
+        }
+        for k in 0..partition.len() {
+            offsets[k + 1] += offsets[k];
+        }
+        let mut next = offsets.clone();
+        let mut members = vec![Member { group: 0, index: 0 }; offsets[partition.len()] as usize];
+        for (number, group) in groups(model).enumerate() {
+            for index in 0..group.len() {
+                let at = &mut next[component(group, index)];
+                members[*at as usize] = Member { group: number as u32, index: index as u32 };
+                *at += 1;
+            }
+        }
+        Some(Members { partition, offsets, members })
+    }
+
+    /// The elements of component k, those of the objective first.
+    pub(super) fn of_component(&self, k: usize) -> &[Member] {
+        &self.members[self.offsets[k] as usize..self.offsets[k + 1] as usize]
+    }
+}
+
+/// All groups in the order members count them.
+pub(super) fn groups(model: &RibModel) -> impl Iterator<Item = &Group> {
+    model.objective_groups.iter().chain(&model.row_groups)
+}
+
+/// The group of this number.
+pub(super) fn group(model: &RibModel, number: u32) -> &Group {
+    let (number, objective) = (number as usize, model.objective_groups.len());
+    if number < objective { &model.objective_groups[number] } else { &model.row_groups[number - objective] }
+}

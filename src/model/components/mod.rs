@@ -1,0 +1,53 @@
+//! Models that fall apart: variables that meet in no row and no term of the objective can be solved for by themselves.
+//!
+//! | file | subject |
+//! |---|---|
+//! | [`partition`] | which variables and rows belong together |
+//! | [`members`] | which elements of a rib model belong to which component |
+//! | [`local`] | one component of a rib model, evaluated densely |
+//! | [`part`] | one component as a model of its own |
+
+mod local;
+mod members;
+mod part;
+mod partition;
+#[cfg(test)]
+mod tests;
+
+pub(super) use local::Apart;
+pub use members::Members;
+pub use partition::Partition;
+
+use super::Model;
+
+/// A model seen as a sum of small ones over disjoint variables: f(x) = constant + Σ f_k(x_k), each row within one component.
+pub trait Components: Sync {
+    /// Who belongs where.
+    fn partition(&self) -> &Partition;
+
+    /// What the objective holds besides the components.
+    fn constant(&self) -> f64;
+
+    /// An evaluator for one component at a time, with working memory of its own: one per thread.
+    fn local(&self) -> Box<dyn Local + '_>;
+
+    /// Component k as a model of its own, for solvers that want one. Variables and rows in the order of [`Partition`].
+    fn model(&self, component: usize) -> Box<dyn Model + '_>;
+}
+
+/// Dense values and derivatives of one component: n variables and m rows in the order of [`Partition`].
+///
+/// Nothing is guarded here: outside the domain there come NaN or infinities, and callers must look.
+pub trait Local {
+    /// Turns to another component. Evaluations before the first call see an empty one.
+    fn turn_to(&mut self, component: usize);
+
+    /// f(x); rows are overwritten by c(x).
+    fn values(&mut self, x: &[f64], rows: &mut [f64]) -> f64;
+
+    /// f(x); overwrites c(x), ∇f(x) and the Jacobian (m×n, row by row).
+    fn first_order(&mut self, x: &[f64], rows: &mut [f64], gradient: &mut [f64], jacobian: &mut [f64]) -> f64;
+
+    /// Overwrites the lower triangle (n×n, row by row) by weight·∇²f + Σ y_i ∇²c_i.
+    fn hessian(&mut self, x: &[f64], weight: f64, y: &[f64], hessian: &mut [f64]);
+}

@@ -1,0 +1,130 @@
+//! The way from a start where a term has no value (log of a negative number, 0/0, zero area) into the domain.
+
+use super::{EvaluationError, Model};
+use crate::math::split_mix::SplitMix;
+
+/// Distances searched, in units of each variable's size.
+const RADII: [f64; 9] = [1e-6, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0];
+/// Points tried at each distance at the most.
+const TRIES: usize = 96;
+/// Values computed in all, in numbers of variables: larger problems try fewer points.
+const WORK: usize = 20_000_000;
+/// Halvings of the way back towards the start.
+const HALVINGS: usize = 8;
+
+/// `start` where objective, rows and first derivatives have values there; else a point inside the bounds where they have, not
+/// much farther away than needed.
+///
+/// # Errors
+/// The error at `start`, where none is found.
+pub fn valid_near(model: &dyn Model, start: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+    let first = match values(model, start) {
+        Ok(()) => return Ok(start.to_vec()),
+        Err(error) => error,
+    };
+    let tries = TRIES.min(WORK / (start.len() + 1) / RADII.len()).max(2);
+    let mut random = SplitMix::new(11);
+    let candidates = RADII.into_iter().flat_map(|radius| (0..tries).map(move |k| (radius, k)));
+    for (radius, k) in candidates {
+        let x = moved(model, start, radius, &mut direction(k, &mut random));
+        if values(model, &x).is_ok() {
+            return Ok(nearer(model, start, x));
+        }
+    }
+    Err(first)
+}
+
+/// Objective, rows and their first derivatives.
+fn values(model: &dyn Model, x: &[f64]) -> Result<(), EvaluationError> {
+    let meta = model.meta();
+    let finite = |all: &[f64]| all.iter().all(|value| value.is_finite());
+    let (mut gradient, mut rows, mut jacobian) = (vec![0.0; x.len()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+    let objective = model.gradient(x, &mut gradient)?;
+    model.constraints(x, &mut rows)?;
+    model.jacobian(x, &mut jacobian)?;
+    if objective.is_finite() && finite(&gradient) && finite(&rows) && finite(&jacobian) {
+        return Ok(());
+    }
+    Err(EvaluationError::Invalid { term: "a derivative".into(), cause: "it is no number".into() })
+}
+
+/// The k-th direction: all upwards, all downwards, then single variables and random ones in turn.
+fn direction(k: usize, random: &mut SplitMix) -> impl FnMut(usize, usize) -> f64 {
+    let mut own = SplitMix::new((random.uniform() * 1e15) as u64);
+    move |j, n| match k {
+        0 => 1.0,
+        1 => -1.0,
+        _ if k % 2 == 0 && k / 2 <= 2 * n => {
+            let (place, up) = ((k / 2 - 1) / 2, (k / 2) % 2 == 1);
+            if j != place {
+                0.0
+            } else if up {
+                1.0
+            } else {
+                -1.0
+            }
+        }
+        _ => 2.0 * own.uniform() - 1.0,
+    }
+}
+
+/// The start moved by `radius` along a direction, kept inside the bounds.
+fn moved(model: &dyn Model, start: &[f64], radius: f64, direction: &mut impl FnMut(usize, usize) -> f64) -> Vec<f64> {
+    let meta = model.meta();
+    let one = |(j, &x): (usize, &f64)| {
+        let (lower, upper) = (meta.lower[j], meta.upper[j]);
+        let room = if (upper - lower).is_finite() { upper - lower } else { f64::INFINITY };
+        let size = if x == 0.0 { room.min(1.0) } else { x.abs().max(room.min(1.0)) };
+        (x + radius * size * direction(j, start.len())).max(lower).min(upper)
+    };
+    start.iter().enumerate().map(one).collect()
+}
+
+/// Back towards the start while values exist, and then half of the last way out again: not on the very rim of the domain.
+fn nearer(model: &dyn Model, start: &[f64], found: Vec<f64>) -> Vec<f64> {
+    let between = |share: f64| start.iter().zip(&found).map(|(s, x)| s + share * (x - s)).collect::<Vec<_>>();
+    let (mut outside, mut inside) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (outside + inside);
+        if values(model, &between(middle)).is_ok() { inside = middle } else { outside = middle }
+    }
+    let share = 0.5 * (inside + 1.0);
+    let x = between(share);
+    if values(model, &x).is_ok() { x } else { found }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::model::handmade::{Formulas, Handmade};
+
+    /// Has values where x > y + 2 only.
+    struct Logarithm;
+
+    impl Formulas for Logarithm {
+        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
+            (x[0] - x[1] - 2.0).ln()
+        }
+
+        fn rows<D: DualNum<f64> + Copy>(&self, _: &[D]) -> Vec<D> {
+            Vec::new()
+        }
+    }
+
+    #[test]
+    fn a_start_outside_the_domain_is_moved_inside_and_one_inside_stays() {
+        let bounds = [(-10.0, -1.0, 10.0), (-10.0, 3.0, 10.0)];
+        let model = Handmade::new(Logarithm, &bounds, &[]);
+        let x = valid_near(&model, &[-1.0, 3.0]).unwrap();
+        assert!(x[0] > x[1] + 2.0 && x.iter().all(|x| x.abs() <= 10.0), "{x:?}");
+        assert_eq!(valid_near(&model, &[5.0, 1.0]).unwrap(), [5.0, 1.0]);
+    }
+
+    #[test]
+    fn where_no_point_has_values_the_error_of_the_start_is_told() {
+        let model = Handmade::new(Logarithm, &[(0.0, 0.5, 1.0), (0.0, 0.5, 1.0)], &[]);
+        assert!(valid_near(&model, &[0.5, 0.5]).is_err());
+    }
+}

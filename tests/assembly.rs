@@ -1,0 +1,165 @@
+//! From problem text to a model: derivatives, sharing, classes.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use ribopt::input;
+use ribopt::model::derivative_check::derivative_check;
+use ribopt::model::{Class, Model, RibModel, assemble, classify};
+
+fn model(text: &str) -> RibModel {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("problem.toml");
+    fs::write(&file, text).unwrap();
+    model_of(&file)
+}
+
+fn model_of(file: &Path) -> RibModel {
+    let input = input::read(file).unwrap_or_else(|mistakes| panic!("{}:\n{mistakes}", file.display()));
+    assemble(&Arc::new(input.problem.without_kinks())).unwrap()
+}
+
+fn assert_derivatives(model: &RibModel, what: &str) {
+    // Off the bounds, where differences have room on both sides.
+    let meta = model.meta();
+    let x: Vec<f64> = (0..meta.variables())
+        .map(|j| {
+            let (lower, upper) = (meta.lower[j], meta.upper[j]);
+            let inside = if lower.is_finite() && upper.is_finite() { 0.4 * lower + 0.6 * upper } else { meta.start[j] };
+            if inside == 0.0 { 0.37 + 0.1 * j as f64 } else { inside }
+        })
+        .collect();
+    let check = derivative_check(model, &x).unwrap();
+    assert!(check.compared > 0, "{what}");
+    assert_eq!(check.disagreements, 0, "{what}: {:?}", check.worst);
+}
+
+#[test]
+fn exact_derivatives_of_every_shipped_problem_agree_with_differences() {
+    let mut files = 0;
+    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("problems")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            assert_derivatives(&model_of(&path), &path.display().to_string());
+            files += 1;
+        }
+    }
+    assert!(files >= 10);
+}
+
+/// Two ribs between three sections of one kind, by both laws, with rows on every property.
+fn ribs_of(kind: &str, dimensions: &str, properties: &[&str]) -> String {
+    let mut text = String::new();
+    for section in ["p", "q", "r"] {
+        text += &format!("[sections.{section}]\nkind = \"{kind}\"\n{dimensions}\n");
+    }
+    text += "[[ribs]]\nname = \"one\"\nfrom = \"p\"\nto = \"q\"\nlength = 2.0\n";
+    text += "[[ribs]]\nname = \"two\"\nfrom = \"q\"\nto = \"r\"\nlength = 3.0\nvolume = \"prismatoid\"\n";
+    text += "[[ribs]]\nname = \"three\"\nsection = \"p\"\nlength = 1.5\n";
+    for property in properties {
+        text += &format!("[[constraints]]\nname = \"{property}\"\nfor = \"sections\"\nrequire = \"{property} >= 1e-9\"\n");
+    }
+    text + "[[constraints]]\nname = \"line\"\nfor = \"ribs\"\nrequire = \"sum(ribs: length/(from.Ix + to.Ix)) >= 1e-9*volume_prismatoid\"\n"
+}
+
+#[test]
+fn every_parametrisation_of_the_h_beam_has_exact_derivatives_and_one_volume() {
+    let forms = [
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "hw = {lower=0.2,upper=0.21}",
+            "b = {lower=0.1,upper=0.2}",
+            "tf = {lower=9e-3,upper=1e-2}",
+        ],
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "hw = {lower=0.2,upper=0.21}",
+            "b = {lower=0.1,upper=0.2}",
+            "h = {lower=0.22,upper=0.24}",
+        ],
+        [
+            "tw = {lower=4e-3,upper=6e-3}",
+            "h = {lower=0.22,upper=0.24}",
+            "b = {lower=0.1,upper=0.2}",
+            "tf = {lower=9e-3,upper=1e-2}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h1 = {lower=0.2,upper=0.21}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "t = {lower=2e-2,upper=3e-2}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h1 = {lower=0.2,upper=0.21}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "h2 = {lower=0.22,upper=0.24}",
+        ],
+        [
+            "b1 = {lower=4e-3,upper=6e-3}",
+            "h2 = {lower=0.22,upper=0.24}",
+            "b2 = {lower=0.1,upper=0.2}",
+            "t = {lower=2e-2,upper=3e-2}",
+        ],
+    ];
+    for form in forms {
+        let text = ribs_of("h-beam", &form.join("\n"), &["A", "Ix", "Iy", "Wx", "Wy", "tf"]);
+        assert_derivatives(&model(&text), &form.join(", "));
+    }
+}
+
+#[test]
+fn closed_forms_and_expressions_give_the_same_volume() {
+    // A computed dimension takes the way of expressions, a plain one that of closed forms.
+    let plain = ribs_of("rectangle", "b = {lower=0.1,upper=0.3,start=0.2}\nh = {lower=0.2,upper=0.5,start=0.4}", &[]);
+    let computed = plain.replace("b = {lower=0.1,upper=0.3,start=0.2}", "b = \"2*half\"");
+    let computed = format!("[variables]\nhalf = {{ lower = 0.05, upper = 0.15, start = 0.1 }}\n{computed}");
+    let (plain, computed) = (model(&plain), model(&computed));
+    let at_start = |model: &RibModel| model.objective(&model.meta().start).unwrap();
+    assert!((at_start(&plain) - at_start(&computed)).abs() < 1e-15);
+    assert_derivatives(&computed, "computed dimensions");
+}
+
+#[test]
+fn items_of_one_shape_share_their_kernels() {
+    let text = ribs_of("rectangle", "b = {lower=0.1,upper=0.3}\nh = {lower=0.2,upper=0.5}", &["A", "Ix"]);
+    let (objective, rows, kernels) = model(&text).elements();
+    assert_eq!((objective, rows), (3, 6 + 3 * 3 + 9), "three ribs; six section rows, three sums with three volumes each");
+    assert!(kernels <= 9, "{kernels} kernels");
+}
+
+fn class(text: &str) -> Class {
+    classify(&model(text)).unwrap().class
+}
+
+#[test]
+fn classes_are_proved_by_structure() {
+    let problem = |objective: &str, row: &str| {
+        format!(
+            "minimize = \"{objective}\"\n[variables]\nx = {{lower=0.1,upper=9}}\ny = {{lower=0.1,upper=9}}\n[definitions]\ng = \"x - 2*y\"\n[[constraints]]\nname = \"row\"\nrequire = \"{row}\"\n"
+        )
+    };
+    assert_eq!(class(&problem("x + 2*y", "x - y <= 3")), Class::Linear);
+    assert_eq!(class(&problem("x*y + x/y", "x*y^3/12 >= 2")), Class::GeometricProgram);
+    assert_eq!(class(&problem("x*y", "g <= 0")), Class::GeometricProgram, "a definition is seen through");
+    assert_eq!(class(&problem("x*y", "1/x + y <= 4 - 1")), Class::GeometricProgram);
+    assert_eq!(class(&problem("x^2 + exp(y)", "x^2 - sqrt(y) <= 3")), Class::Convex);
+    assert_eq!(class(&problem("x*y", "x + y >= 1")), Class::Nonlinear, "a posynomial bounded from below");
+    assert_eq!(class(&problem("x*y", "x*y == 2")), Class::GeometricProgram);
+    assert_eq!(class(&problem("x*y", "x + y == 2")), Class::Nonlinear);
+}
+
+#[test]
+fn rectangles_are_geometric_programs_and_h_beams_with_stiffness_are_not() {
+    let rectangle = ribs_of("rectangle", "b = {lower=0.1,upper=0.3}\nh = {lower=0.2,upper=0.5}", &["A", "Ix", "Wy"]);
+    let first = |text: &str| text.split("[[constraints]]\nname = \"line\"").next().unwrap().to_string();
+    assert_eq!(class(&first(&rectangle)), Class::GeometricProgram);
+    let h_beam =
+        "tw = {lower=4e-3,upper=6e-3}\nhw = {lower=0.2,upper=0.3}\nb = {lower=0.1,upper=0.2}\ntf = {lower=9e-3,upper=1e-2}";
+    assert_eq!(class(&first(&ribs_of("h-beam", h_beam, &[]))), Class::GeometricProgram);
+    let stiff = model(&first(&ribs_of("h-beam", h_beam, &["Ix"])));
+    let classification = classify(&stiff).unwrap();
+    assert_eq!(classification.class, Class::Nonlinear);
+    assert!(classification.not_geometric.unwrap().contains("constraint Ix"));
+}

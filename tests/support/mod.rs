@@ -1,0 +1,118 @@
+//! What the comments of a problem file promise, and one solve of it.
+#![allow(dead_code, reason = "each test binary uses a part")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ribopt::backends::Iteration;
+use ribopt::crosscheck::{self, Outcome, Status, Task};
+use ribopt::problem::Settings;
+use ribopt::run::{Choice, Subject};
+
+/// What a problem file says of its answer, in comments: `# optimum: 1.5`, further `# local: 2.5` lines for minima that are
+/// no worse an answer than the start deserves, or `# expect: infeasible`.
+#[derive(Debug)]
+pub struct Promise {
+    /// `certified` unless the file expects otherwise.
+    pub status: Status,
+    pub optimum: Option<f64>,
+    pub local: Vec<f64>,
+    /// The minimum has no multipliers: it need not be certified.
+    pub without_multipliers: bool,
+}
+
+impl Promise {
+    pub fn read(path: &Path) -> Promise {
+        let text = fs::read_to_string(path).expect("a readable file");
+        let values = |key: &str| -> Vec<String> {
+            text.lines().filter_map(|line| line.strip_prefix("# ")?.strip_prefix(key)).map(|word| word.trim().into()).collect()
+        };
+        let numbers = |key: &str| -> Vec<f64> {
+            let number = |word: String| word.parse().unwrap_or_else(|_| panic!("{}: {key} {word}", path.display()));
+            values(key).into_iter().map(number).collect()
+        };
+        let expect = values("expect:").pop().unwrap_or_default();
+        let promise = Promise {
+            status: match expect.as_str() {
+                "infeasible" => Status::Infeasible,
+                "unbounded" => Status::Unbounded,
+                "not-attained" => Status::NotAttained,
+                "" | "no-multipliers" => Status::Certified,
+                other => panic!("{}: nothing to expect is called {other}", path.display()),
+            },
+            optimum: numbers("optimum:").pop(),
+            local: numbers("local:"),
+            without_multipliers: expect == "no-multipliers",
+        };
+        let consistent = (promise.status == Status::Certified) == promise.optimum.is_some();
+        assert!(consistent, "{} promises neither an optimum nor a verdict, or both", path.display());
+        promise
+    }
+}
+
+/// All problem files of a folder and its sub-folders, in a fixed order.
+pub fn problem_files(folder: &str) -> Vec<PathBuf> {
+    fn gather(folder: &Path, files: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).expect("a readable folder") {
+            let path = entry.expect("a readable folder").path();
+            if path.is_dir() {
+                gather(&path, files);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                files.push(path);
+            }
+        }
+    }
+    let mut files = Vec::new();
+    gather(Path::new(folder), &mut files);
+    files.sort();
+    files
+}
+
+/// The path as tables name it: below its folder, without the extension.
+pub fn name(path: &Path) -> String {
+    path.components().skip(1).collect::<PathBuf>().with_extension("").display().to_string()
+}
+
+pub fn read(path: &Path) -> Subject {
+    Subject::read(path, &[]).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+/// One cross-checked run from the file's start.
+pub fn solve(subject: &Subject, choices: &[Choice], settings: &Settings) -> Outcome {
+    let task = Task {
+        model: subject.model(),
+        substitution: subject.substitution(),
+        class: subject.class,
+        settings,
+        start: &subject.model().meta().start,
+        start_multipliers: None,
+        starts: 1,
+        interrupt: None,
+    };
+    let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
+    let mut unobserved = |_: usize, _: &str| -> Box<dyn FnMut(&Iteration<'_>)> { Box::new(|_: &Iteration<'_>| {}) };
+    crosscheck::run(&task, &backends, &mut unobserved)
+}
+
+/// The answers one by one: how each run stopped and what its point measures.
+pub fn diagnosis(outcome: &Outcome) -> String {
+    let mut lines = vec![format!("    {}: {}", outcome.status.as_str(), outcome.message)];
+    for answer in &outcome.answers {
+        let solution = &answer.solution;
+        let measures = answer.certificate.as_ref().map_or("no value there".into(), |certificate| {
+            format!(
+                "primal {:.1e} dual {:.1e} complementarity {:.1e} negative curvature {} runaway {:?}",
+                certificate.primal_infeasibility,
+                certificate.dual_infeasibility,
+                certificate.complementarity,
+                certificate.negative_curvature,
+                certificate.runaway,
+            )
+        });
+        lines.push(format!(
+            "    {} {}: {:?} after {} evaluations, f {:?}, {measures}; {}",
+            answer.backend, solution.algorithm, solution.termination, solution.evaluations, answer.objective, solution.message
+        ));
+    }
+    lines.join("\n")
+}
