@@ -28,7 +28,13 @@ fn tour(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     let ring = |h: f64| vec![vec![[-0.06, -h / 2.0], [0.06, -h / 2.0], [0.06, h / 2.0], [-0.06, h / 2.0]]];
     let sized = geometry.into_iter().map(|geometry| {
         let [from, to] = geometry.ends.map(|p| 0.1 + 0.04 * p.z.abs());
-        SizedRib { rings: [ring(from), ring(to)], tags: vec![0.12, to], utilisation: Some((to - 0.1) * 5.0), geometry }
+        SizedRib {
+            rings: [ring(from), ring(to)],
+            tags: vec![0.12, to],
+            utilisation: Some((to - 0.1) * 5.0),
+            model_volume: None,
+            geometry,
+        }
     });
     let sized: Vec<SizedRib> = sized.collect();
     for ending in ["obj", "stl", "vtu"] {

@@ -201,6 +201,7 @@ fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst 
     let rows = multipliers.rows.iter().enumerate().map(|(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
     let bounds = multipliers.bounds.iter().enumerate();
     let bounds = bounds.map(|(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z))));
-    let all: Vec<_> = rows.chain(bounds).collect();
-    (all.iter().copied().fold((None, 0.0), worse).0, all.iter().map(|term| term.1).sum())
+    let add = |(worst, sum): (Worst, f64), next: (Place, f64)| (worse(worst, next), sum + next.1);
+    let (worst, sum) = rows.chain(bounds).fold(((None, 0.0), 0.0), add);
+    (worst.0, sum)
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::mesh::Stage;
+
 /// Sizes structural ribs: the lightest rectangular ribs and H beams that still meet their limits, with a proof.
 #[derive(Debug, Parser)]
 #[command(name = "ribopt", version, max_term_width = 110, after_help = BEGINNING)]
@@ -52,6 +54,11 @@ pub enum Command {
         /// Kind of section the example is about; without it, an example that shows most of the file
         kind: Option<String>,
     },
+    /// From a quad rib mesh to a problem folder: check, reconstruct, smooth, trace, slice, ribs, new
+    Mesh {
+        #[command(subcommand)]
+        stage: Stage,
+    },
     /// JSON Schema of the problem file, for completion in editors
     Schema,
 }
@@ -80,9 +87,14 @@ pub struct Solve {
     /// Print the result as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
+    /// Write the sized ribs as closed solids (.obj, .stl or .vtu; repeatable), with a report as JSON beside them; places
+    /// the ribs by geometry.csv beside the problem file
+    #[arg(long, value_name = "OUT")]
+    pub solids: Vec<PathBuf>,
     #[command(flatten)]
     pub limits: Limits,
-    /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line
+    /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line, and the
+    /// ribs in space where geometry.csv beside the problem file places them
     #[arg(long)]
     pub plot: bool,
     /// No table and no summary; errors and warnings only

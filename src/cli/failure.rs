@@ -5,6 +5,7 @@ use std::io;
 use thiserror::Error;
 
 use super::output;
+use ribopt::mesh::commands::CommandError;
 use ribopt::report::result::{Mistake, write_mistakes};
 use ribopt::run::RunError;
 
@@ -20,6 +21,9 @@ pub enum Failure {
     /// The run could not begin, or leave its files.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A stage of the mesh could not be done.
+    #[error(transparent)]
+    Mesh(#[from] CommandError),
     /// Standard output cannot be written to.
     #[error("cannot write to standard output: {0}; make room there or send it elsewhere")]
     Output(io::Error),

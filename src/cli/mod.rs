@@ -7,6 +7,7 @@ mod compare;
 mod failure;
 mod interrupt;
 mod live_table;
+mod mesh;
 mod output;
 mod reference;
 mod section;
@@ -43,6 +44,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),
+        Command::Mesh { stage } => mesh::run(&stage),
         Command::Schema => reference::schema(),
     }
 }

@@ -5,9 +5,12 @@ use std::time::Instant;
 use super::arguments::Solve;
 use super::failure::Failure;
 use super::{interrupt, live_table, output};
+use ribopt::report::number::short;
+use ribopt::report::text::count;
 use ribopt::report::{result, summary};
+use ribopt::run::network::{self, Network};
 use ribopt::run::solve::{Request, Solved, solve};
-use ribopt::run::{Subject, Watcher, choice};
+use ribopt::run::{RunError, Subject, Watcher, choice};
 
 /// Solves, shows what was found and returns the exit code.
 pub fn run(arguments: &Solve) -> Result<u8, Failure> {
@@ -18,6 +21,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     let settings = &mut subject.settings;
     settings.max_seconds = (settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
     output::tell(&subject.warnings);
+    let network = network(arguments, &subject)?;
     let request = Request {
         choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
         out: arguments.out.as_deref(),
@@ -35,6 +39,9 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     let new_warnings = solved.about.warnings.get(subject.about.warnings.len()..).unwrap_or_default();
     output::warn(new_warnings);
     show(arguments, &subject, &solved)?;
+    if let Some(network) = network {
+        draw(arguments, &subject, &solved, &network)?;
+    }
     Ok(solved.outcome.exit_code())
 }
 
@@ -50,4 +57,39 @@ fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Fai
         summary::write(&findings, out)?;
         writeln!(out, "logs and results: {}", solved.folder().display())
     })
+}
+
+/// Where the ribs lie, if solids are wanted, or pictures and there is a table; told before anything is solved if that is not
+/// known.
+fn network(arguments: &Solve, subject: &Subject) -> Result<Option<Network>, RunError> {
+    arguments.solids.iter().try_for_each(|out| network::check_ending(out))?;
+    let wanted = !arguments.solids.is_empty() || arguments.plot && Network::is_beside(&arguments.file);
+    Ok(wanted.then(|| Network::beside(&arguments.file, subject.problem())).transpose()?)
+}
+
+/// Solids and pictures of the reported point, whatever its status: the summary has told that.
+fn draw(arguments: &Solve, subject: &Subject, solved: &Solved, network: &Network) -> Result<(), Failure> {
+    let sized = network.sized(subject, &solved.outcome.x).map_err(RunError::from)?;
+    let mut lines = Vec::new();
+    for out in &arguments.solids {
+        let report = sized.write_solids(out).map_err(RunError::from)?;
+        lines.push(format!(
+            "solids: {}: {}, volume {} (the model's prismatoids: {}); {} overlap, about {} counted more than once",
+            out.display(),
+            count(report.solids, "rib"),
+            short(report.volume),
+            report.model_volume.map_or("unknown".into(), short),
+            count(report.overlapping_joints, "joint"),
+            short(report.overlap_volume)
+        ));
+    }
+    if arguments.plot {
+        let out = solved.folder().join("network.svg");
+        sized.write_picture(&subject.about.title, &out).map_err(RunError::from)?;
+        lines.push(format!("picture: {}", out.display()));
+    }
+    match arguments.json || arguments.quiet {
+        true => Ok(()),
+        false => output::print(|out| lines.iter().try_for_each(|line| writeln!(out, "{line}"))),
+    }
 }

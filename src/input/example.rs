@@ -15,7 +15,6 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("polygon", include_str!("examples/polygon.toml")),
     ("polyline", include_str!("examples/polyline.toml")),
     ("profile", include_str!("examples/profile.toml")),
-    ("sections", include_str!("examples/sections.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
 ];
 

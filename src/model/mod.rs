@@ -15,8 +15,6 @@ pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;
-#[cfg(test)]
-pub mod handmade;
 pub mod logarithmic;
 pub mod pattern;
 pub mod rebounded;

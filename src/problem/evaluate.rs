@@ -122,8 +122,11 @@ impl<'a> Evaluation<'a> {
 
     fn definition(&self, d: u32) -> Option<f64> {
         // Constant definitions were folded where they are used.
-        self.x?;
-        self.named(Named::Definition(d), &self.problem.definitions.get(d as usize)?.1, Item::None)
+        if self.x.is_some() {
+            self.named(Named::Definition(d), &self.problem.definitions.get(d as usize)?.1, Item::None)
+        } else {
+            None
+        }
     }
 
     fn named(&self, name: Named, formula: &Formula, item: Item) -> Option<f64> {

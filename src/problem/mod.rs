@@ -8,6 +8,7 @@ mod collections;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
+pub mod items;
 pub mod kinks;
 pub mod mentions;
 pub mod names;
@@ -263,6 +264,23 @@ pub enum Limit {
     AtLeast(Formula),
     Equal(Formula),
     Between(Formula, Formula),
+}
+
+impl Limit {
+    /// Its formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.sides().into_iter().flatten()
+    }
+
+    /// The limit from below and the one from above; for an equality both.
+    pub fn sides(&self) -> [Option<&Formula>; 2] {
+        match self {
+            Limit::AtMost(limit) => [None, Some(limit)],
+            Limit::AtLeast(limit) => [Some(limit), None],
+            Limit::Equal(value) => [Some(value), Some(value)],
+            Limit::Between(lower, upper) => [Some(lower), Some(upper)],
+        }
+    }
 }
 
 /// The items a constraint is repeated for.

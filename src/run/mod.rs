@@ -5,11 +5,14 @@ pub mod check;
 pub mod choice;
 pub mod compare;
 pub mod folder;
+pub mod network;
 mod pictures;
 pub mod section;
+mod sizing;
 pub mod solve;
 pub mod start;
 pub mod subject;
+pub mod utilisation;
 pub mod verify;
 
 use thiserror::Error;
@@ -53,6 +56,9 @@ pub enum RunError {
     /// The answer to start from or to verify.
     #[error(transparent)]
     Answer(#[from] AnswerError),
+    /// Where ribs lie in space, or their solids and pictures.
+    #[error(transparent)]
+    Network(#[from] network::NetworkFailure),
     /// No such backend or algorithm, or none that takes the problem.
     #[error("{0}")]
     Choice(String),

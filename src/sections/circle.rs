@@ -51,9 +51,18 @@ impl Kind for Circle {
     fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
         ring(given[0], tolerance).into_iter().collect()
     }
+
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        matching_ring(given[0]).into_iter().collect()
+    }
 }
 
 /// A circle of diameter d as a polygon inside it, anticlockwise.
 pub(super) fn ring(d: f64, tolerance: f64) -> Option<Vec<[f64; 2]>> {
     Superellipse::new(d / 2.0, d / 2.0, 2.0).ok()?.polygon(tolerance).ok()
+}
+
+/// The same with a fixed number of points and the circle's area.
+pub(super) fn matching_ring(d: f64) -> Option<Vec<[f64; 2]>> {
+    Some(Superellipse::new(d / 2.0, d / 2.0, 2.0).ok()?.polygon_of_equal_area(super::QUARTER))
 }

@@ -116,7 +116,17 @@ pub trait Kind: Sync {
     /// The boundary at numeric dimensions: the outer ring counter-clockwise, holes clockwise; curves to `tolerance`.
     /// `given` are numbers in the form's order.
     fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>>;
+
+    /// The boundary with as many points for any dimensions, so that two sections can be joined point by point. Curves become
+    /// polygons of 64 points and of the curve's own area.
+    fn matching_rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        // Kinds with straight sides look at no tolerance.
+        self.rings(form, given, outline, f64::INFINITY)
+    }
 }
+
+/// Points of a quarter of a curve in [`Kind::matching_rings`].
+const QUARTER: usize = 16;
 
 /// All kinds.
 pub static KINDS: &[&dyn Kind] = &[

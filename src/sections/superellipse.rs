@@ -64,6 +64,11 @@ impl Kind for Superellipse {
         let ring = Curve::new(a, b, r).and_then(|curve| curve.polygon(tolerance));
         ring.into_iter().collect()
     }
+
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        let [a, b, r] = *given else { return Vec::new() };
+        Curve::new(a, b, r).map(|curve| curve.polygon_of_equal_area(super::QUARTER)).into_iter().collect()
+    }
 }
 
 /// A = 4ab·Γ(1+1/r)²/Γ(1+2/r), by ln Γ.

@@ -55,12 +55,21 @@ impl Kind for Tube {
     }
 
     fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
-        let hole = circle::ring(given[0] - 2.0 * given[1], tolerance).map(|mut hole| {
-            hole.reverse();
-            hole
-        });
-        circle::ring(given[0], tolerance).into_iter().chain(hole).collect()
+        rings(given, |d| circle::ring(d, tolerance))
     }
+
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        rings(given, circle::matching_ring)
+    }
+}
+
+/// The outer circle and, clockwise, the hole.
+fn rings(given: &[f64], ring: impl Fn(f64) -> Option<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+    let hole = ring(given[0] - 2.0 * given[1]).map(|mut hole| {
+        hole.reverse();
+        hole
+    });
+    ring(given[0]).into_iter().chain(hole).collect()
 }
 
 /// Inner diameter d − 2t.

@@ -208,8 +208,8 @@ pub struct SectionReport {
 ///
 /// # Errors
 /// Bad files, a face in the plane, open chains.
-pub fn section_file(solid: &Path, plane: &Plane, out: &Path) -> Outcome<SectionReport> {
-    let pieces = section::cut(&formats::read(solid)?, plane)?;
+pub fn section_file(solid: &Source, plane: &Plane, out: &Path) -> Outcome<SectionReport> {
+    let pieces = section::cut(&solid.polygons()?.0, plane)?;
     let numbers: Vec<PieceReport> = pieces.iter().map(|piece| piece.properties).collect();
     write_file(out, |file| match ending(out).as_str() {
         "svg" => file.write_all(tables::section_svg(&pieces).as_bytes()),
@@ -254,10 +254,11 @@ pub fn new_file(name: &str, out: &Path) -> Outcome<Invariants> {
         "grid" => generate::grid(4, 3, 1.0),
         "cube" => generate::cube(3),
         "vault" => generate::vault(12, 14, 10.0, 14.0, 3.0),
+        "small-vault" => generate::vault(6, 4, 6.0, 4.0, 1.5),
         "dome" => generate::dome(10, 8.0, 4.0),
         "shell" => generate::shell(16, 26),
         _ => {
-            let known = "grid, cube, vault, dome, shell".into();
+            let known = "grid, cube, small-vault, vault, dome, shell".into();
             return Err(CommandError::UnknownMesh { name: name.into(), known });
         }
     };

@@ -29,7 +29,7 @@ use super::{PolygonMesh, Vector};
 #[allow(missing_docs)]
 pub enum FormatError {
     /// The operating system says no.
-    #[error("{path}: {cause}")]
+    #[error("{path}: {cause}; check its name, and that it can be read or written there")]
     Io { path: String, cause: std::io::Error },
     /// A reader found a mistake; the file's name is added by [`read`].
     #[error("line {line}: {cause}")]
@@ -77,17 +77,25 @@ pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
     mesh.map_err(|cause| FormatError::In { path: path.display().to_string(), cause: Box::new(cause) })
 }
 
+/// Whether [`write`] knows the ending.
+///
+/// # Errors
+/// Where it does not.
+pub fn check_writable(path: &Path) -> Result<(), FormatError> {
+    if ["obj", "stl", "vtu"].contains(&ending(path).as_str()) {
+        return Ok(());
+    }
+    Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .stl, .vtu" })
+}
+
 /// Writes a mesh as `.obj`, `.stl` or `.vtu`, with numbers per face for the last.
 ///
 /// # Errors
 /// Where the ending names no format or the file cannot be written.
 pub fn write(path: &Path, mesh: &PolygonMesh, data: &[CellData]) -> Result<(), FormatError> {
-    let kind = ending(path);
-    if !["obj", "stl", "vtu"].contains(&kind.as_str()) {
-        return Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .stl, .vtu" });
-    }
+    check_writable(path)?;
     let written = create(path).and_then(|mut out| {
-        match kind.as_str() {
+        match ending(path).as_str() {
             "obj" => write_obj(&mut out, mesh)?,
             "stl" => write_stl(&mut out, mesh)?,
             _ => write_vtu(&mut out, mesh, data)?,

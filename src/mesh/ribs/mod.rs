@@ -86,14 +86,17 @@ pub struct Options {
     pub slenderness: f64,
     /// Largest change of height per length of rib.
     pub taper_slope: f64,
+    /// Rectangle: b is at least this. H beam: web and flanges are.
+    pub thickness: f64,
     /// The title.
     pub title: String,
 }
 
-impl Default for Options {
-    fn default() -> Self {
+impl Options {
+    /// The defaults for a kind.
+    pub fn of(kind: SectionKind) -> Self {
         Options {
-            kind: SectionKind::Rectangle,
+            kind,
             bounds: Vec::new(),
             prismatoid: true,
             elastic_modulus: 210e6,
@@ -101,8 +104,18 @@ impl Default for Options {
             sag_ratio: 300.0,
             slenderness: 8.0,
             taper_slope: 0.1,
+            thickness: match kind {
+                SectionKind::Rectangle => 0.03,
+                SectionKind::HBeam => 0.006,
+            },
             title: "Ribs of a quad mesh".into(),
         }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options::of(SectionKind::Rectangle)
     }
 }
 
@@ -110,13 +123,13 @@ impl Default for Options {
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs)]
 pub enum RibsError {
-    #[error("{name} must be a positive number, not {value}")]
+    #[error("{name} must be a positive number, not {value}; choose another one")]
     NotPositive { name: String, value: f64 },
     #[error("{kind} has no dimension '{dimension}'; it has {known}")]
     UnknownDimension { kind: &'static str, dimension: String, known: String },
-    #[error("bounds of {dimension}: lower {lower} is above upper {upper}")]
+    #[error("bounds of {dimension}: lower {lower} is above upper {upper}; exchange them")]
     Crossed { dimension: String, lower: f64, upper: f64 },
-    #[error("there are no ribs: no edge of the mesh is flagged or the mesh has no faces")]
+    #[error("there are no ribs: the mesh has no edges that carry any; flag some as l elements, or none for all")]
     NoRibs,
     #[error(transparent)]
     Write(#[from] FormatError),
@@ -177,6 +190,7 @@ fn checked_bounds(options: &Options) -> Result<Vec<Bounds>, RibsError> {
     positive("the sag ratio", options.sag_ratio)?;
     positive("the slenderness", options.slenderness)?;
     positive("the taper slope", options.taper_slope)?;
+    positive("the thickness", options.thickness)?;
     let mut bounds = options.kind.dimensions();
     for own in &options.bounds {
         positive(&format!("the lower bound of {}", own.dimension), own.lower)?;

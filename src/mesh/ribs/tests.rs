@@ -36,7 +36,10 @@ fn senseless_options_are_errors() {
     let (_, network) = network(generate::grid(1, 1, 1.0));
     let folder = tempfile::tempdir().unwrap();
     let error = |options: Options| write_problem(&network, &options, folder.path()).unwrap_err().to_string();
-    assert_eq!(error(Options { load: -1.0, ..Default::default() }), "the load must be a positive number, not -1");
+    assert_eq!(
+        error(Options { load: -1.0, ..Default::default() }),
+        "the load must be a positive number, not -1; choose another one"
+    );
     let bounds = vec![Bounds { dimension: "tf".into(), lower: 1.0, upper: 2.0, start: 1.0 }];
     assert_eq!(error(Options { bounds, ..Default::default() }), "rectangle has no dimension 'tf'; it has b, h");
 }

@@ -9,11 +9,15 @@ fn limits(options: &Options) -> Vec<(&'static str, &'static str, String)> {
     let sag = "sum(ribs: load*sag/E*0.5*(1/from.Ix + 1/to.Ix)/(span/sag_ratio)) <= 1";
     let mut limits = vec![("stiffness", "for = \"ribs\"\nby = \"line\"", sag.to_string())];
     match options.kind {
-        SectionKind::Rectangle => limits.push(("slenderness", "for = \"sections\"", "h <= slenderness*b".into())),
+        SectionKind::Rectangle => limits.extend([
+            ("slenderness", "for = \"sections\"", "h <= slenderness*b".into()),
+            ("thickness", "for = \"sections\"", "b >= thickness".into()),
+        ]),
         SectionKind::HBeam => limits.extend([
             ("web-slenderness", "for = \"sections\"", "hw <= 5*slenderness*tw".into()),
             ("flange-slenderness", "for = \"sections\"", "b <= 4*slenderness*tf".into()),
-            ("thickness", "for = \"sections\"", "tw <= tf".into()),
+            ("web-thickness", "for = \"sections\"", "tw >= thickness".into()),
+            ("flange-thickness", "for = \"sections\"", "tw <= tf".into()),
         ]),
     }
     limits.extend([
@@ -34,6 +38,7 @@ pub(super) fn problem(options: &Options) -> String {
         ("sag_ratio", options.sag_ratio),
         ("slenderness", options.slenderness),
         ("taper_slope", options.taper_slope),
+        ("thickness", options.thickness),
     ];
     let _ = write!(text, "title = {title}\nminimize = \"volume\"\n\n[parameters]\n");
     for (name, value) in parameters {

@@ -29,6 +29,8 @@ pub struct SizedRib {
     pub tags: Vec<f64>,
     /// How far its limits are used, 1 being fully; `None` where it has no limits.
     pub utilisation: Option<f64>,
+    /// The volume a model gives it, to hold the solid against; `None` where there is no model.
+    pub model_volume: Option<f64>,
 }
 
 /// All solids in one mesh, with their numbers per face.
@@ -53,6 +55,10 @@ pub struct Report {
     pub prismatoid_volume: f64,
     /// The largest relative difference of the two for one rib.
     pub largest_difference: f64,
+    /// The volumes the model gives the ribs, together; `None` where a rib has none.
+    pub model_volume: Option<f64>,
+    /// The largest relative difference of a solid's volume to its rib's in the model.
+    pub largest_model_difference: Option<f64>,
     /// Joints where solids reach into one another.
     pub overlapping_joints: usize,
     /// Estimate of the volume that is counted more than once.
@@ -116,6 +122,8 @@ impl Builder {
             volume: 0.0,
             prismatoid_volume: 0.0,
             largest_difference: 0.0,
+            model_volume: Some(0.0),
+            largest_model_difference: Some(0.0),
             overlapping_joints: 0,
             overlap_volume: 0.0,
             joints: Vec::new(),
@@ -139,10 +147,14 @@ impl Builder {
             self.data.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
         }
         let (volume, expected) = (solid.volume(), prismatoid_volume(&rib.rings, rib.geometry.length()));
-        self.report.solids += 1;
-        self.report.volume += volume;
-        self.report.prismatoid_volume += expected;
-        self.report.largest_difference = self.report.largest_difference.max((volume / expected - 1.0).abs());
+        let (report, model) = (&mut self.report, rib.model_volume);
+        report.solids += 1;
+        report.volume += volume;
+        report.prismatoid_volume += expected;
+        report.largest_difference = report.largest_difference.max((volume / expected - 1.0).abs());
+        report.model_volume = report.model_volume.zip(model).map(|(sum, own)| sum + own);
+        let most = report.largest_model_difference.zip(model);
+        report.largest_model_difference = most.map(|(most, own)| most.max((volume / own - 1.0).abs()));
     }
 }
 

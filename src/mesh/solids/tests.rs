@@ -17,7 +17,7 @@ fn rib(name: &str, ends: [[f64; 3]; 2], joints: [u32; 2], rings: [Vec<Ring>; 2])
     let ends = ends.map(Vector::from);
     let frame = Frame::new(ends[1] - ends[0], Vector::z()).unwrap();
     let geometry = RibGeometry { name: name.into(), line: "L1".into(), ends, frame, joints };
-    SizedRib { geometry, rings, tags: vec![0.3], utilisation: Some(0.85) }
+    SizedRib { geometry, rings, tags: vec![0.3], utilisation: Some(0.85), model_volume: None }
 }
 
 #[test]

@@ -1,0 +1,242 @@
+//! What can be typed after `ribopt mesh`.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+
+use super::values;
+use ribopt::mesh::commands::Source;
+use ribopt::mesh::ribs;
+use ribopt::mesh::section::Plane;
+
+const CHECK_CODES: &str = "Exit codes:\n  0  a clean quad mesh\n  1  it has defects\n  2  no mesh could be read";
+const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes are left that no rule could fill\n  2  nothing was written, for the reason told";
+const SMOOTH_CODES: &str =
+    "Exit codes:\n  0  done\n  1  done, but faces were turned over\n  2  nothing was written, for the reason told";
+const CODES: &str = "Exit codes:\n  0  done\n  2  nothing was written, for the reason told";
+
+#[derive(Debug, Subcommand)]
+pub enum Stage {
+    /// Count, measure, and name every defect with its faces
+    #[command(after_help = CHECK_CODES)]
+    Check(Check),
+    /// Fill concave notches and holes with quads and snap to the original surface
+    #[command(after_help = RECONSTRUCT_CODES)]
+    Reconstruct(Reconstruct),
+    /// Smooth the mesh
+    #[command(after_help = SMOOTH_CODES)]
+    Smooth(Smooth),
+    /// Trace the edges to rib lines
+    #[command(after_help = CODES)]
+    Trace(Trace),
+    /// Stations with frames along the rib lines, or the section of a solid with a plane
+    #[command(after_help = CODES)]
+    Slice(Slice),
+    /// A ready problem folder: problem.toml, sections.csv, ribs.csv, geometry.csv
+    #[command(after_help = CODES)]
+    Ribs(Ribs),
+    /// Write one of the meshes made by formula: grid, cube, small-vault, vault, dome, shell
+    #[command(after_help = CODES)]
+    New(New),
+}
+
+/// The mesh every stage starts from.
+#[derive(Debug, Args)]
+pub struct Mesh {
+    /// The mesh: .obj (l elements flag rib edges), .ply, .off or .stl
+    mesh: PathBuf,
+    /// Join vertices within this distance first
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    weld: Option<f64>,
+}
+
+impl Mesh {
+    pub fn source(&self) -> Source {
+        Source { path: self.mesh.clone(), weld: self.weld }
+    }
+}
+
+/// How the finding is shown.
+#[derive(Debug, Args)]
+pub struct Shown {
+    /// Print the report as JSON on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+#[derive(Debug, Args)]
+pub struct Reconstruct {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    /// The original surface, a mesh of any polygons
+    #[arg(long, value_name = "REF")]
+    pub original: PathBuf,
+    /// The new mesh (.obj, .stl or .vtu); what was done goes to the same name with .json
+    #[arg(long, short, value_name = "OUT")]
+    pub out: PathBuf,
+    /// How far new faces may lie off the original and vertices are snapped; default: a tenth of the mean edge
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Do not fill notches and holes
+    #[arg(long)]
+    pub no_fill: bool,
+    /// Do not snap
+    #[arg(long)]
+    pub no_snap: bool,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+/// How vertices are moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// All at once
+    Laplacian,
+    /// One after the other
+    GaussSeidel,
+    /// A step inwards, then one outwards: little shrinkage
+    Taubin,
+}
+
+#[derive(Debug, Args)]
+pub struct Smooth {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    /// The new mesh (.obj, .stl or .vtu); what was done goes to the same name with .json
+    #[arg(long, short, value_name = "OUT")]
+    pub out: PathBuf,
+    /// How vertices are moved
+    #[arg(long, value_enum, default_value_t = Method::Laplacian)]
+    pub method: Method,
+    /// The part of the way to the neighbours' mean, in (0, 1]; 1 is the note's step, which keeps checkerboards
+    #[arg(long, value_name = "L", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub relaxation: f64,
+    /// Taubin's outward step, below minus the relaxation; default: -1.06 times the relaxation
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub mu: Option<f64>,
+    /// How often
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(..=1_000_000))]
+    pub iterations: u32,
+    /// Boundaries and creases stay where they are (the default)
+    #[arg(long, conflicts_with = "slide")]
+    pub keep_boundary: bool,
+    /// Vertices of boundaries and creases move along them; corners stay
+    #[arg(long)]
+    pub slide: bool,
+    /// Edges whose faces meet at more than this angle (degrees) are creases; without it only boundaries count
+    #[arg(long, value_name = "ANGLE", value_parser = values::angle)]
+    pub features: Option<f64>,
+    /// Put vertices back onto this surface after every iteration
+    #[arg(long, value_name = "REF")]
+    pub project: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+#[derive(Debug, Args)]
+pub struct Trace {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    /// The lines: .obj (l elements) or .csv; the report goes to the same name with .json
+    #[arg(long, short, value_name = "LINES", value_parser = values::lines_file)]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("what").required(true))]
+pub struct Slice {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    /// Longest segment between stations
+    #[arg(long, value_name = "LENGTH", group = "what", allow_negative_numbers = true)]
+    pub segments: Option<f64>,
+    /// Cut a solid: x=C, y=C, z=C, or a point and a normal as px,py,pz:nx,ny,nz
+    #[arg(long, value_name = "PLANE", group = "what", value_parser = values::plane, allow_hyphen_values = true)]
+    pub plane: Option<Plane>,
+    /// Stations (.csv), or the section (.csv or .svg); the report goes to the same name with .json
+    #[arg(long, short, value_name = "OUT", value_parser = values::section_file)]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+/// Volume laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Law {
+    /// Dimensions vary linearly: the volume of the solids
+    Prismatoid,
+    /// The note's law
+    Frustum,
+}
+
+#[derive(Debug, Args)]
+pub struct Ribs {
+    #[command(flatten)]
+    pub mesh: Mesh,
+    /// Kind of section
+    #[arg(long, value_name = "KIND", default_value = "rectangle", value_parser = values::kind)]
+    pub kind: ribs::SectionKind,
+    /// The folder to write
+    #[arg(long, short, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Longest rib; default: one rib per mesh edge
+    #[arg(long, value_name = "LENGTH", default_value_t = f64::INFINITY, hide_default_value = true, allow_negative_numbers = true)]
+    pub segments: f64,
+    /// Bounds of a dimension at all sections (repeatable); the start is their geometric mean where it is left out
+    #[arg(long = "bounds", value_name = "DIM=LOWER:UPPER[:START]", value_parser = values::bounds)]
+    pub bounds: Vec<ribs::Bounds>,
+    /// Volume law of the ribs
+    #[arg(long, value_enum, default_value_t = Law::Prismatoid)]
+    pub volume: Law,
+    #[command(flatten)]
+    pub limits: RibLimits,
+    /// Title of the problem
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    #[command(flatten)]
+    pub shown: Shown,
+}
+
+/// Loads and limits; the defaults are steel in metres and kilonewtons.
+#[derive(Debug, Args)]
+pub struct RibLimits {
+    /// Young's modulus
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    pub elastic_modulus: Option<f64>,
+    /// Line load
+    #[arg(long, value_name = "Q", allow_negative_numbers = true)]
+    pub load: Option<f64>,
+    /// Stiffness: each line, as a beam between its ends, may sag by its span over this
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub sag_ratio: Option<f64>,
+    /// Slenderness: h over b of rectangles; webs of H beams 5 times, flanges 4 times this
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub slenderness: Option<f64>,
+    /// Largest change of height per length of rib
+    #[arg(long, value_name = "SLOPE", allow_negative_numbers = true)]
+    pub taper_slope: Option<f64>,
+    /// Least thickness: b of rectangles, web and flanges of H beams
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub thickness: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct New {
+    /// grid, cube, small-vault, vault, dome or shell
+    pub name: String,
+    /// The file: .obj, .stl or .vtu
+    #[arg(long, short, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub shown: Shown,
+}

@@ -1,0 +1,111 @@
+//! Ribs at a point: the outlines of their sections, numbers to tag them with, the volume the model gives them.
+
+use std::sync::Arc;
+
+use super::Subject;
+use super::network::{NetworkFailure, Sized};
+use super::utilisation::utilisation;
+use crate::mesh::network::RibGeometry;
+use crate::mesh::solids::{Ring, SizedRib};
+use crate::model::{EvaluationError, Model, assemble};
+use crate::problem::evaluate::Evaluation;
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope, VolumeLaw};
+use crate::sections;
+
+/// Tags of every rib: the dimensions at its two ends, its length and the volume the model gives it as a prismatoid.
+pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Result<Sized, NetworkFailure> {
+    let problem = at(subject.problem(), x);
+    let shapes = (0..problem.sections.names.len()).map(|s| Shape::of(&problem, s)).collect::<Result<Vec<_>, _>>()?;
+    let used = utilisation(subject, x)?;
+    let volumes = prismatoids(subject.problem(), x)?;
+    let dimensions = dimension_names(&problem);
+    let rib = |(r, place): (usize, &RibGeometry)| {
+        let ends = [problem.ribs.from[r], problem.ribs.to[r]].map(|s| &shapes[s as usize]);
+        let of_ends = dimensions.iter().flat_map(|name| ends.map(|shape| shape.dimension(name)));
+        SizedRib {
+            rings: ends.map(|shape| shape.rings.clone()),
+            tags: of_ends.chain([place.length(), volumes[r]]).collect(),
+            utilisation: used[r],
+            model_volume: Some(volumes[r]),
+            geometry: place.clone(),
+        }
+    };
+    let ribs = places.iter().enumerate().map(rib).collect();
+    let of_ends = dimensions.iter().flat_map(|name| ["from", "to"].map(|end| format!("{end}.{name}")));
+    let tag_names = of_ends.chain(["length".into(), "volume".into()]).collect();
+    Ok(Sized { ribs, tag_names })
+}
+
+/// The problem with its variables' starts at x, where [`Evaluation`] looks.
+fn at(problem: &Problem, x: &[f64]) -> Problem {
+    let mut problem = problem.clone();
+    problem.variables.start = x.to_vec();
+    problem
+}
+
+/// A section in numbers.
+struct Shape {
+    names: &'static [&'static str],
+    values: Vec<f64>,
+    rings: Vec<Ring>,
+}
+
+impl Shape {
+    fn of(problem: &Problem, s: usize) -> Result<Shape, NetworkFailure> {
+        let failure = |cause| NetworkFailure::Section { section: problem.sections.names[s].to_string(), cause };
+        let number = problem.sections.form[s];
+        let (kind, form) = (sections::kind_of(number), sections::form(number));
+        let evaluation = Evaluation::at_start(problem);
+        let values = form.dimensions.iter().zip(problem.dimensions(s)).map(|(name, &dimension)| {
+            let value = evaluation.dimension(s as u32, dimension);
+            value.ok_or_else(|| failure(format!("{name} depends on volumes, which have no place in an outline")))
+        });
+        let values = values.collect::<Result<Vec<f64>, _>>()?;
+        let outline = problem.outline(s as u32);
+        if let Some(defect) = kind.defect(form, &values, outline) {
+            return Err(failure(defect));
+        }
+        let rings = kind.matching_rings(form, &values, outline);
+        Ok(Shape { names: form.dimensions, values, rings })
+    }
+
+    /// NaN where the section has no dimension of this name.
+    fn dimension(&self, name: &str) -> f64 {
+        let at = self.names.iter().position(|known| *known == name);
+        at.and_then(|at| self.values.get(at)).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// The names of all dimensions given, each once, in the order of the sections.
+fn dimension_names(problem: &Problem) -> Vec<&'static str> {
+    let mut forms: Vec<u16> = problem.sections.form.clone();
+    forms.sort_unstable();
+    forms.dedup();
+    let mut names = Vec::new();
+    for name in forms.iter().flat_map(|&number| sections::form(number).dimensions) {
+        if !names.contains(name) {
+            names.push(*name);
+        }
+    }
+    names
+}
+
+/// Every rib's volume as a prismatoid, by the model.
+fn prismatoids(problem: &Problem, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+    let mut restated = Problem { objective: Formula::default(), ..problem.clone() };
+    restated.ribs.law.fill(VolumeLaw::Prismatoid);
+    restated.constraints = vec![Constraint {
+        name: "volume".into(),
+        place: String::new(),
+        text: String::new(),
+        scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),
+        left: Formula::OwnVolume,
+        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
+    }];
+    let too_dense =
+        |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "volume".into(), cause: error.to_string() };
+    let model = assemble(&Arc::new(restated)).map_err(too_dense)?;
+    let mut volumes = vec![0.0; model.meta().rows()];
+    model.constraints(x, &mut volumes)?;
+    Ok(volumes)
+}
