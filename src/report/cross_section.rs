@@ -1,6 +1,6 @@
 //! One cross-section in numbers: its dimensions, its properties, its outline.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::expression::ast::Collection;
 use crate::problem::Problem;
@@ -17,8 +17,10 @@ pub struct CrossSection {
     /// Its kind.
     pub kind: &'static str,
     /// Names and values of the given dimensions.
+    #[serde(serialize_with = "as_map")]
     pub dimensions: Vec<(&'static str, f64)>,
     /// Names and values of everything else it offers; `None` where there is no value.
+    #[serde(serialize_with = "as_map")]
     pub properties: Vec<(&'static str, Option<f64>)>,
     /// What is wrong with it at these dimensions.
     pub defect: Option<String>,
@@ -26,6 +28,11 @@ pub struct CrossSection {
     pub points: Vec<[f64; 2]>,
     #[serde(skip)]
     form: &'static Form,
+}
+
+/// Pairs as a JSON object, in their order.
+fn as_map<T: Serialize, S: Serializer>(pairs: &[(&'static str, T)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
 
 impl CrossSection {

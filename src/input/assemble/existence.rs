@@ -54,7 +54,7 @@ impl Assembly<'_> {
                 [fixed, start, largest].into_iter().enumerate().find_map(|(at, values)| Some((at, self.fold(s, &values?)?)));
             let Some((at, reason)) = found else { continue };
             let (section, place) = (&self.problem.sections.names[s as usize], self.section_places[s as usize]);
-            let help = "thinner walls, or a constraint that keeps `clear` positive";
+            let help = "draw it without crossings, or give thinner walls: `clear` must stay positive";
             match at {
                 0 => self.findings.mistake(place, format!("section `{section}`: {reason}"), help),
                 1 => self.findings.warning(place, format!("section `{section}` at its start: {reason}"), help),

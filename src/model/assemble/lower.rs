@@ -6,7 +6,6 @@ use std::rc::Rc;
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
-use crate::problem::evaluate::{self, Evaluation};
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::{self, Law};
@@ -254,21 +253,6 @@ impl<'a> Lowering<'a> {
             Formula::RibVolume(rib) => self.rib_volume(*rib, law_of(self.problem, *rib, Total::Own)),
             Formula::Volume(total) => self.volume(*total),
             own => self.own(own, context),
-        }
-    }
-
-    /// A profile at the item's own parameter: a sum over few control variables.
-    fn profile(&mut self, profile: u32, at: &Formula, context: Context) -> NodeId {
-        let item = match context.item {
-            Item::None => evaluate::Item::None,
-            Item::Section(section) => evaluate::Item::Section(section),
-            Item::Rib(rib) => evaluate::Item::Rib(rib),
-        };
-        let s = Evaluation::constants(self.problem).value(at, item);
-        // The reader only lets through parameters between 0 and 1.
-        match s.and_then(|s| self.problem.profiles.get(profile as usize)?.at(s)) {
-            Some(sum) => self.formula(&sum, context),
-            None => self.graph.constant(f64::NAN),
         }
     }
 

@@ -5,6 +5,7 @@ mod facts;
 mod groups;
 mod lower;
 mod plan;
+mod profile;
 mod sum;
 mod survey;
 mod template;

@@ -31,8 +31,11 @@ impl Scale {
         Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: true }
     }
 
-    /// Where a value stands, from 0 to 1; what lies beyond the axis stands at its end.
+    /// Where a value stands, from 0 to 1; what lies beyond the axis stands at its end, NaN nowhere.
     pub fn share(&self, value: f64) -> f64 {
+        if value.is_nan() {
+            return value;
+        }
         let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
         ((value - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
     }
@@ -105,6 +108,7 @@ mod tests {
         let decades = Scale::logarithmic([3e-9, 40.0].into_iter());
         assert_eq!(decades.ticks().len(), 6);
         assert_eq!((decades.share(1e-9), decades.share(100.0), decades.share(0.0)), (0.0, 1.0, 0.0));
+        assert!(decades.share(f64::NAN).is_nan());
     }
 
     #[test]

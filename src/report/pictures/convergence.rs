@@ -9,6 +9,9 @@ const MOST: usize = 4000;
 /// Values below this are drawn here: on a logarithmic axis there is no zero.
 const FLOOR: f64 = 1e-17;
 
+/// What a panel shows of a row.
+type Value<'a> = &'a dyn Fn(&[f64; 3]) -> f64;
+
 /// What one backend showed of its way.
 #[derive(Debug, Clone, Default)]
 pub struct Trace {
@@ -57,7 +60,7 @@ pub fn convergence(traces: &[Trace], answer: Option<f64>) -> String {
     let mut canvas = Canvas::new(760.0, 760.0, "Convergence");
     let size = answer.map_or(1.0, |value| value.abs()).max(f64::MIN_POSITIVE);
     let of_objective = move |value: f64| answer.map_or(f64::NAN, |answer| (value - answer).abs() / size);
-    let panels: [(&str, &dyn Fn(&[f64; 3]) -> f64); 3] = [
+    let panels: [(&str, Value); 3] = [
         ("|objective - answer|, relative", &|row| of_objective(row[0])),
         ("feasibility (violation)", &|row| row[1]),
         ("first-order optimality", &|row| row[2]),
@@ -77,7 +80,7 @@ pub fn convergence(traces: &[Trace], answer: Option<f64>) -> String {
     canvas.finish()
 }
 
-fn curve(canvas: &mut Canvas, panel: &Panel, index: usize, trace: &Trace, value: &dyn Fn(&[f64; 3]) -> f64) {
+fn curve(canvas: &mut Canvas, panel: &Panel, index: usize, trace: &Trace, value: Value) {
     let colour = COLOURS[index % COLOURS.len()];
     let points: Vec<[f64; 2]> = trace.rows.iter().map(|(number, row)| panel.at([*number as f64, value(row)])).collect();
     let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\"");

@@ -8,8 +8,7 @@ use crate::report::number::significant;
 
 /// Sections drawn at the most.
 const MOST: u32 = 24;
-const COLUMNS: usize = 4;
-const CELL: f64 = 190.0;
+const WIDTH: f64 = 760.0;
 
 /// One cell of the picture: a section's title, its outlines before and after.
 struct Cell {
@@ -45,17 +44,17 @@ fn title(section: &CrossSection) -> String {
 }
 
 fn drawn(heading: &str, cells: Vec<Cell>, legend: bool) -> String {
-    let rows = cells.len().div_ceil(COLUMNS).max(1);
-    let width = CELL * COLUMNS as f64;
-    let mut canvas = Canvas::new(width, 50.0 + CELL * rows as f64, heading);
+    let columns = cells.len().clamp(2, 4);
+    let (rows, size) = (cells.len().div_ceil(columns).max(1), WIDTH / columns as f64);
+    let mut canvas = Canvas::new(WIDTH, 50.0 + size * rows as f64, heading);
     if legend {
-        before_and_after(&mut canvas, width, 20.0);
+        before_and_after(&mut canvas, WIDTH, 20.0);
     }
     let all = cells.iter().flat_map(|cell| cell.before.iter().chain(&cell.after)).flatten().flatten();
     let reach = all.fold(0.0, |reach: f64, one| reach.max(one.abs()));
-    let scale = if reach > 0.0 { (CELL / 2.0 - 22.0) / reach } else { 1.0 };
+    let scale = if reach > 0.0 { (size / 2.0 - 22.0) / reach } else { 1.0 };
     for (at, cell) in cells.iter().enumerate() {
-        let middle = [CELL * (at % COLUMNS) as f64 + CELL / 2.0, 40.0 + CELL * (at / COLUMNS) as f64 + CELL / 2.0];
+        let middle = [size * ((at % columns) as f64 + 0.5), 40.0 + size * ((at / columns) as f64 + 0.5)];
         canvas.line([middle[0] - 8.0, middle[1], middle[0] + 8.0, middle[1]], "#bbbbbb");
         canvas.line([middle[0], middle[1] - 8.0, middle[0], middle[1] + 8.0], "#bbbbbb");
         let on_sheet = |[x, y]: [f64; 2]| [middle[0] + scale * x, middle[1] - scale * y];
@@ -63,7 +62,7 @@ fn drawn(heading: &str, cells: Vec<Cell>, legend: bool) -> String {
             let data: String = rings.iter().map(|ring| through(ring.iter().map(|point| on_sheet(*point)), true)).collect();
             canvas.path(&data, style);
         }
-        canvas.text(middle[0], middle[1] + CELL / 2.0 - 4.0, "middle", &cell.title);
+        canvas.text(middle[0], middle[1] + size / 2.0 - 4.0, "middle", &cell.title);
     }
     canvas.finish()
 }
