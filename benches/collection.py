@@ -35,22 +35,33 @@ def judge(problem, code, result):
     return f"exit {code} {result.get('status')} f {objective} for {best}", hits
 
 
+def algebraic(source):
+    """The problems that are stated by expressions."""
+    with open(source) as file:
+        return [problem for problem in json.load(file)["problems"] if problem.get("analysis") == "algebraic"]
+
+
+def solve(ribopt, path, *options):
+    """(exit code, result, seconds) of one run; exit code -1 where it did not end."""
+    with tempfile.TemporaryDirectory() as out:
+        begin = time.time()
+        try:
+            command = [ribopt, "solve", path, "--json", "--out", out, *options]
+            run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+            code, text = run.returncode, run.stdout
+        except subprocess.TimeoutExpired:
+            code, text = -1, ""
+    return code, json.loads(text or "{}"), time.time() - begin
+
+
 def main():
     source, folder, ribopt, wanted = sys.argv[1], sys.argv[2], os.path.abspath(sys.argv[3]), set(sys.argv[4:])
     counts, hits, total, slow = {}, {}, 0, []
-    for problem in json.load(open(source))["problems"]:
+    for problem in algebraic(source):
         path = os.path.join(folder, problem["id"] + ".toml")
-        if problem.get("analysis") != "algebraic" or not os.path.exists(path) or (wanted and problem["id"] not in wanted):
+        if not os.path.exists(path) or (wanted and problem["id"] not in wanted):
             continue
-        with tempfile.TemporaryDirectory() as out:
-            begin = time.time()
-            try:
-                run = subprocess.run([ribopt, "solve", path, "--json", "--out", out], capture_output=True, text=True, timeout=120)
-                code, text = run.returncode, run.stdout
-            except subprocess.TimeoutExpired:
-                code, text = -1, "{}"
-            seconds = time.time() - begin
-        result = json.loads(text or "{}")
+        code, result, seconds = solve(ribopt, path)
         verdict, by_backend = judge(problem, code, result)
         kind = verdict if verdict in ("ok", "local") else "FAIL"
         counts[kind] = counts.get(kind, 0) + 1

@@ -14,7 +14,7 @@ import casadi as ca
 from statement import from_toml
 
 OPTIONS = {"print_time": False, "ipopt.print_level": 0, "ipopt.sb": "yes", "ipopt.tol": 1e-12, "ipopt.acceptable_tol": 1e-12,
-           "ipopt.constr_viol_tol": 1e-11, "ipopt.bound_relax_factor": 0.0, "ipopt.max_iter": 2000, "ipopt.max_wall_time": 20.0}
+           "ipopt.constr_viol_tol": 1e-11, "ipopt.bound_relax_factor": 0.0, "ipopt.max_iter": 2000, "ipopt.max_wall_time": 5.0}
 
 
 def random_start(statement, generator):
@@ -56,7 +56,7 @@ def main():
         promised = None if promised is None or promised[1] == "?" else float(promised[1])
         same = best is not None and promised is not None and abs(best - promised) <= 1e-7 * max(1.0, abs(promised))
         wrong += promised is not None and not same
-        distinct = sorted({float(f"{v:.6g}") for v in values})
+        distinct = list({f"{v:.6g}": statement.sign * v for v in reversed(values)}.values())[::-1]
         print(f"{path:45} promised {promised!r:22} best {best!r:22} {'' if same else 'DIFFERS' if promised is not None else ''} "
               f"from start {found[0][0]!r} ({found[0][1]}); {len(values)}/{len(found)} solved, values {distinct[:6]}", flush=True)
     sys.exit(1 if wrong else 0)

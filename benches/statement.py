@@ -186,7 +186,8 @@ def cross_section(statement, section, name, fields, names):
     for key, given in dimensions.items():
         if not isinstance(given, dict):
             setattr(section, key, evaluate(given, {**vars(section), **names}))
-    {"rectangle": rectangle, "h-beam": h_beam}[fields["kind"]](section)
+    section.complete = {"rectangle": rectangle, "h-beam": h_beam}[fields["kind"]]
+    section.complete(section)
 
 
 def rectangle(s):
@@ -217,8 +218,18 @@ def rib(fields, sections, names):
     ends = [sections[fields.get("section") or fields[key]] for key in ("from", "to")]
     data = {key: given if isinstance(given, str) else evaluate(given, names) for key, given in fields.get("data", {}).items()}
     length = evaluate(fields["length"], names)
-    volume = sum(length / 3 * (a + b + ca.sqrt(a * b)) for a, b in zip(ends[0].parts, ends[1].parts))
+    volume = {"frustum": frustum, "prismatoid": prismatoid}[fields.get("volume", "frustum")](length, *ends)
     return SimpleNamespace(name=fields["name"], length=length, volume=volume, from_=ends[0], to=ends[1], **data)
+
+
+def frustum(length, start, end):
+    return sum(length / 3 * (a + b + ca.sqrt(a * b)) for a, b in zip(start.parts, end.parts))
+
+
+def prismatoid(length, start, end):
+    mean = SimpleNamespace(**{key: (getattr(start, key) + getattr(end, key)) / 2 for key in ("b", "h", "tw", "tf") if hasattr(start, key)})
+    start.complete(mean)
+    return length / 6 * (start.A + 4 * mean.A + end.A)
 
 
 def requirement(statement, text, names):

@@ -23,13 +23,15 @@ pub(super) struct Candidate {
 /// Scaled distances beyond this cannot carry a multiplier that matters: with complementarity within 1e−6 it would be below 1e−3.
 const REACH: f64 = 1e-3;
 
-/// The row sides within reach. Rows whose gradient vanishes push nowhere and are left out.
-pub(super) fn rows(point: &Point<'_>) -> Vec<Candidate> {
+/// The rows with a side within reach, ascending. Rows whose gradient vanishes push nowhere and are left out.
+pub(super) fn near_rows(point: &Point<'_>) -> Vec<usize> {
+    (0..point.meta().rows()).filter(|&i| point.slopes[i] > 0.0 && row(point, i).next().is_some()).collect()
+}
+
+/// The sides of row i within reach.
+pub(super) fn row(point: &Point<'_>, i: usize) -> impl Iterator<Item = Candidate> {
     let meta = point.meta();
-    (0..meta.rows())
-        .filter(|&i| point.slopes[i] > 0.0)
-        .flat_map(|i| sides(Owner::Row(i), point.rows[i], meta.row_lower[i], meta.row_upper[i], point.slopes[i]))
-        .collect()
+    sides(Owner::Row(i), point.rows[i], meta.row_lower[i], meta.row_upper[i], point.slopes[i])
 }
 
 /// The bounds of variable j within reach.

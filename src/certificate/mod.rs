@@ -187,7 +187,10 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, d)| most.max(f64::EPSILON * sum * d / point.sigma))
+    // A variable that is zero but for rounding has no size of its own.
+    let largest = point.d.iter().fold(0.0, |most: f64, d| most.max(*d));
+    let size = |d: f64| if d < f64::EPSILON * largest { largest } else { d };
+    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * size(d) / point.sigma))
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.
@@ -198,6 +201,7 @@ fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst 
     let rows = multipliers.rows.iter().enumerate().map(|(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
     let bounds = multipliers.bounds.iter().enumerate();
     let bounds = bounds.map(|(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z))));
-    let all: Vec<_> = rows.chain(bounds).collect();
-    (all.iter().copied().fold((None, 0.0), worse).0, all.iter().map(|term| term.1).sum())
+    let add = |(worst, sum): (Worst, f64), next: (Place, f64)| (worse(worst, next), sum + next.1);
+    let (worst, sum) = rows.chain(bounds).fold(((None, 0.0), 0.0), add);
+    (worst.0, sum)
 }

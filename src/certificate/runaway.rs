@@ -2,7 +2,7 @@
 //! falling for ever (exp(x) towards −∞). Such an infimum is not attained.
 
 use super::point::Point;
-use crate::model::Model;
+use crate::model::{EvaluationError, Model};
 
 /// Single variables tried at the most.
 const TRIED: usize = 32;
@@ -21,8 +21,41 @@ pub(super) fn variables(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
     if found.is_empty() && all.len() > 1 && falls_for_ever(point, &all, way, tolerance) {
         found = all;
     }
+    if found.is_empty() {
+        found = towards_bounds(point, tolerance);
+    }
     found.sort_unstable();
     found
+}
+
+/// The variables on their way to bounds where a term has no value: nothing rises as they come nearer, and the bound itself is out
+/// of reach.
+fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
+    let meta = point.meta();
+    let near = |j: usize| {
+        let x = point.x[j];
+        let bound = if x - meta.lower[j] <= meta.upper[j] - x { meta.lower[j] } else { meta.upper[j] };
+        let size = bound.abs().max(meta.start[j].abs());
+        let size = if size > 0.0 { size } else { 1.0 };
+        (x != bound && (x - bound).abs() <= 1e-8 * size).then_some((j, bound))
+    };
+    let near: Vec<(usize, f64)> = (0..point.x.len()).filter_map(near).collect();
+    let value = |share: f64| {
+        let mut x = point.x.to_vec();
+        near.iter().for_each(|&(j, bound)| x[j] = bound + share * (x[j] - bound));
+        feasible_objective(point, &x, tolerance)
+    };
+    let on_bounds = || {
+        let mut x = point.x.to_vec();
+        near.iter().for_each(|&(j, bound)| x[j] = bound);
+        point.origin.model.objective(&x).and_then(|_| point.origin.model.constraints(&x, &mut vec![0.0; meta.rows()]))
+    };
+    if near.is_empty() || !matches!(on_bounds(), Err(EvaluationError::Invalid { .. })) {
+        return Vec::new();
+    }
+    let level = 64.0 * f64::EPSILON * point.objective.abs();
+    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(|share| value(share).is_some_and(|f| f <= point.objective + level));
+    if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
 }
 
 /// How many times its own size variable j has moved towards an open bound; `None` where it has not gone far.
@@ -55,7 +88,7 @@ fn falls_for_ever(point: &Point<'_>, variables: &[usize], way: f64, tolerance: f
         }
     }
     let fall = point.objective - last;
-    let far_and_level = fall == 0.0 && way > 100.0;
+    let far_and_level = fall <= 64.0 * f64::EPSILON * point.objective.abs() && way > 100.0;
     fall > 64.0 * f64::EPSILON * point.objective.abs()
         || (far_and_level && value(-0.5).is_some_and(|f| f > point.objective))
         || (far_and_level && slopes_down(point, variables) && rises_behind(point, way, value))

@@ -14,7 +14,7 @@ fn judge(model: &Sample, x: &[f64]) -> Certificate {
 
 fn disc() -> Sample {
     // min x + y in the unit disc: (−1, −1)/√2, multiplier 1/√2.
-    Sample::new(&[0.5, 0.5], |x| x[0].clone() + &x[1]).row(-INF, 1.0, |x| x[0].clone() * &x[0] + x[1].clone() * &x[1])
+    Sample::new(&[0.5, 0.5], |x| x[0] + x[1]).row(-INF, 1.0, |x| x[0] * x[0] + x[1] * x[1])
 }
 
 #[test]
@@ -39,10 +39,10 @@ fn infeasible_by_a_millionth_is_infeasible() {
 
 #[test]
 fn a_stationary_maximum_or_saddle_never_passes() {
-    let maximum = Sample::new(&[0.0], |x| -(x[0].clone() * &x[0]));
+    let maximum = Sample::new(&[0.0], |x| -(x[0] * x[0]));
     let top = judge(&maximum, &[0.0]);
     assert!(!top.certified && top.negative_curvature && top.sigma == 0.0);
-    let saddle = Sample::new(&[1.0, 1.0], |x| x[0].clone() * &x[0] - x[1].clone() * &x[1]);
+    let saddle = Sample::new(&[1.0, 1.0], |x| x[0] * x[0] - x[1] * x[1]);
     let point = judge(&saddle, &[0.0, 0.0]);
     assert!(point.negative_curvature);
     let escape = point.escape.unwrap();
@@ -51,34 +51,34 @@ fn a_stationary_maximum_or_saddle_never_passes() {
 
 #[test]
 fn a_maximum_on_a_bound_with_zero_multiplier_does_not_pass() {
-    let model = Sample::new(&[1.0], |x| -(x[0].clone() * &x[0])).bound(0, 0.0, 2.0);
+    let model = Sample::new(&[1.0], |x| -(x[0] * x[0])).bound(0, 0.0, 2.0);
     let point = judge(&model, &[0.0]);
     assert!(point.negative_curvature && point.escape.as_ref().unwrap()[0] > 0.0);
     assert!(judge(&model, &[2.0]).certified);
     // x·y on the quadrant: a minimum at the origin although the Hessian is indefinite.
-    let quadrant = Sample::new(&[1.0, 1.0], |x| x[0].clone() * &x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF);
+    let quadrant = Sample::new(&[1.0, 1.0], |x| x[0] * x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF);
     assert!(judge(&quadrant, &[0.0, 0.0]).certified);
 }
 
 #[test]
 fn a_saddle_on_a_curved_row_is_seen_through_the_lagrangian() {
     // min x on the circle x² + y² = 1: both ends are stationary, one is the maximum.
-    let circle = Sample::new(&[0.5, 0.5], |x| x[0].clone()).row(1.0, 1.0, |x| x[0].clone() * &x[0] + x[1].clone() * &x[1]);
+    let circle = Sample::new(&[0.5, 0.5], |x| x[0]).row(1.0, 1.0, |x| x[0] * x[0] + x[1] * x[1]);
     assert!(judge(&circle, &[-1.0, 0.0]).certified);
     assert!(judge(&circle, &[1.0, 0.0]).negative_curvature);
 }
 
 #[test]
 fn duplicated_and_redundant_rows_pass_and_say_so() {
-    let rib = |x: &[Value]| x[0].clone() * &x[1];
-    let stress = |x: &[Value]| (x[0].clone() * &x[1] * &x[1]).recip() * 1e-3;
+    let rib = |x: &[Value]| x[0] * x[1];
+    let stress = |x: &[Value]| (x[0] * x[1] * x[1]).recip() * 1e-3;
     let model = Sample::new(&[0.1, 0.3], rib)
         .bound(0, 0.01, 0.5)
         .bound(1, 0.01, 1.0)
         .row(-INF, 1.0, stress)
         .row(-INF, 1.0, stress)
-        .row(-INF, 0.0, |x| x[1].clone() - x[0].clone() * 5.0)
-        .row(-INF, 5.0, |x| x[1].clone() / &x[0]);
+        .row(-INF, 0.0, |x| x[1] - x[0] * 5.0)
+        .row(-INF, 5.0, |x| x[1] / x[0]);
     let b = (1e-3f64 / 25.0).cbrt();
     let point = judge(&model, &[b, 5.0 * b]);
     assert!(point.certified && point.multipliers_not_unique);
@@ -87,10 +87,8 @@ fn duplicated_and_redundant_rows_pass_and_say_so() {
 
 #[test]
 fn an_optimal_face_may_not_be_unique() {
-    let model = Sample::new(&[0.05, 0.05], |x| x[0].clone() + &x[1])
-        .bound(0, 0.01, 0.2)
-        .bound(1, 0.01, 0.2)
-        .row(0.2, INF, |x| x[0].clone() + &x[1]);
+    let model =
+        Sample::new(&[0.05, 0.05], |x| x[0] + x[1]).bound(0, 0.01, 0.2).bound(1, 0.01, 0.2).row(0.2, INF, |x| x[0] + x[1]);
     let point = judge(&model, &[0.12, 0.08]);
     assert!(point.certified && point.minimiser_may_not_be_unique && !point.multipliers_not_unique);
 }
@@ -98,10 +96,11 @@ fn an_optimal_face_may_not_be_unique() {
 #[test]
 fn where_no_multipliers_exist_nothing_is_certified() {
     // Hock–Schittkowski 13 at its minimiser (1, 0).
-    let model = Sample::new(&[0.0, 0.0], |x| (x[0].clone() - 2.0).powi(2) + x[1].clone() * &x[1])
-        .bound(0, 0.0, INF)
-        .bound(1, 0.0, INF)
-        .row(0.0, INF, |x| (-x[0].clone() + 1.0).powi(3) - &x[1]);
+    let model = Sample::new(&[0.0, 0.0], |x| (x[0] - 2.0).powi(2) + x[1] * x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF).row(
+        0.0,
+        INF,
+        |x| (-x[0] + 1.0).powi(3) - x[1],
+    );
     let point = judge(&model, &[1.0, 0.0]);
     assert!(!point.certified && point.multipliers_not_unique);
     assert!(point.messages.iter().any(|text| text.contains("no multipliers may exist")), "{:?}", point.messages);
@@ -118,9 +117,9 @@ fn a_variable_that_ran_away_is_named() {
     let inverse = Sample::new(&[2.0], |x| x[0].recip()).bound(0, 1.0, INF);
     assert_eq!(judge(&inverse, &[1e6]).runaway, [0]);
     // Far from the start, but attained.
-    let far = Sample::new(&[0.0], |x| (x[0].clone() - 1e6).powi(2));
+    let far = Sample::new(&[0.0], |x| (x[0] - 1e6).powi(2));
     assert!(judge(&far, &[1e6]).certified);
-    let flat = Sample::new(&[4.0, -3.0], |x| (x[0].clone() + &x[1] - 2.0).powi(2) + (x[0].clone() - &x[1]).powi(4));
+    let flat = Sample::new(&[4.0, -3.0], |x| (x[0] + x[1] - 2.0).powi(2) + (x[0] - x[1]).powi(4));
     let point = judge(&flat, &[1.0, 1.0]);
     assert!(point.certified && point.minimiser_may_not_be_unique);
 }
@@ -129,10 +128,10 @@ fn a_variable_that_ran_away_is_named() {
 fn units_do_not_matter() {
     // The same cantilever in units a million apart.
     for unit in [1e-6, 1.0, 1e6] {
-        let model = Sample::new(&[2.0 * unit, 2.0 * unit], |x| x[0].clone() + &x[1])
+        let model = Sample::new(&[2.0 * unit, 2.0 * unit], |x| x[0] + x[1])
             .bound(0, 0.1 * unit, INF)
             .bound(1, 0.1 * unit, INF)
-            .row(-INF, 1.0, move |x| (x[0].clone() / unit).powi(-3) * 8.0 + (x[1].clone() / unit).powi(-3));
+            .row(-INF, 1.0, move |x| (x[0] / unit).powi(-3) * 8.0 + (x[1] / unit).powi(-3));
         // Stationarity: 24/x⁴ = 3/y⁴, so x = 8^¼·y, and 8/x³ + 1/y³ = 1.
         let ratio = 8f64.powf(0.25);
         let y = (8.0 / ratio.powi(3) + 1.0).cbrt();
@@ -143,11 +142,8 @@ fn units_do_not_matter() {
 
 #[test]
 fn fixed_variables_and_equalities_need_no_sign() {
-    let model = Sample::new(&[1.0, 1.0, 1.0], |x| x[0].clone() * &x[0] + x[1].clone() * &x[1] + &x[2]).bound(2, 1.0, 1.0).row(
-        2.0,
-        2.0,
-        |x| x[0].clone() + &x[1],
-    );
+    let model =
+        Sample::new(&[1.0, 1.0, 1.0], |x| x[0] * x[0] + x[1] * x[1] + x[2]).bound(2, 1.0, 1.0).row(2.0, 2.0, |x| x[0] + x[1]);
     let point = judge(&model, &[1.0, 1.0, 1.0]);
     assert!(point.certified);
     assert_eq!(point.bound_sides[2], Side::Equal);

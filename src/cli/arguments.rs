@@ -26,6 +26,13 @@ Exit codes:
   5  a limit was reached or the run was interrupted
   6  the model gave a value that is no number";
 
+const SECTION_EXAMPLES: &str = "\
+Examples:
+  ribopt section rib.toml support midspan --svg sections.svg
+  ribopt section rib.toml --answer results/rib/result.json
+  ribopt section --kind rectangle --dims b=0.2,h=0.5
+  ribopt section --kind polyline --dims thickness=3 --points \"80 0; 0 0; 0 200; 80 200\" --svg channel.svg";
+
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve a problem with every backend, certify and compare the answers
@@ -39,6 +46,9 @@ pub enum Command {
     Check(Check),
     /// The certificate for a point found elsewhere
     Verify(Verify),
+    /// Properties of cross-sections, and a picture of them
+    #[command(after_help = SECTION_EXAMPLES)]
+    Section(Section),
     /// A commented example file on standard output
     New {
         /// Kind of section the example is about; without it, an example that shows most of the file
@@ -83,7 +93,8 @@ pub struct Solve {
     pub solids: Vec<PathBuf>,
     #[command(flatten)]
     pub limits: Limits,
-    /// Leave SVG pictures as well: the ribs in space, where geometry.csv beside the problem file places them
+    /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line, and the
+    /// ribs in space where geometry.csv beside the problem file places them
     #[arg(long)]
     pub plot: bool,
     /// No table and no summary; errors and warnings only
@@ -153,11 +164,43 @@ pub struct Bounds {
 }
 
 #[derive(Debug, Args)]
+pub struct Section {
+    /// The problem file (TOML)
+    #[arg(required_unless_present = "kind", conflicts_with = "kind")]
+    pub file: Option<PathBuf>,
+    /// Sections of the file; default: all (the first thousand)
+    pub sections: Vec<String>,
+    /// The variables' values: a result.json or a CSV with the columns name,value; default: the file's starts
+    #[arg(long, value_name = "ANSWER", requires = "file")]
+    pub answer: Option<PathBuf>,
+    /// Instead of a file: a kind of section
+    #[arg(long, value_name = "KIND", requires = "dims")]
+    pub kind: Option<String>,
+    /// Its dimensions, as in b=0.2,h=0.5
+    #[arg(long, value_name = "NAME=NUMBER,…", requires = "kind")]
+    pub dims: Option<String>,
+    /// Points of a kind drawn by points, as in "0 0; 0.4 0; 0.4 0.3"
+    #[arg(long, value_name = "X Y; …", requires = "kind", allow_hyphen_values = true)]
+    pub points: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the sections into this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+#[derive(Debug, Args)]
 pub struct Check {
     /// The problem file (TOML)
     pub file: PathBuf,
     #[command(flatten)]
     pub changes: Changes,
+    /// Print what was found as one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]

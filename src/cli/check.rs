@@ -2,11 +2,15 @@
 
 use std::io::{self, Write};
 
+use serde::Serialize;
+
 use super::arguments::Check;
 use super::failure::Failure;
 use super::output;
+use ribopt::model::EvaluationError;
 use ribopt::model::derivative_check::DerivativeCheck;
 use ribopt::report::number::short;
+use ribopt::report::result::write_value;
 use ribopt::report::text::count;
 use ribopt::run::{Subject, check::check};
 
@@ -15,6 +19,10 @@ pub fn run(arguments: &Check) -> Result<u8, Failure> {
     let subject = Subject::read(&arguments.file, &arguments.changes.set)?;
     output::tell(&subject.warnings);
     let result = check(&subject);
+    if arguments.json {
+        output::print(|out| write_value(&Found::of(&subject, result.as_ref().ok()), out))?;
+        return Ok(exit_code(&result));
+    }
     output::print(|out| {
         sizes(&subject, out)?;
         match &result {
@@ -22,7 +30,53 @@ pub fn run(arguments: &Check) -> Result<u8, Failure> {
             Err(error) => writeln!(out, "derivatives: no value at the start: {error}"),
         }
     })?;
-    Ok(u8::from(!result.is_ok_and(|check| check.disagreements == 0)))
+    Ok(exit_code(&result))
+}
+
+fn exit_code(result: &Result<DerivativeCheck, EvaluationError>) -> u8 {
+    u8::from(!result.as_ref().is_ok_and(|check| check.disagreements == 0))
+}
+
+/// The classes a nonlinear problem misses, with the term that breaks each.
+fn misses(subject: &Subject) -> impl Iterator<Item = (&'static str, &str)> {
+    let reasons = [("a geometric program", &subject.not_geometric), ("convex", &subject.not_convex)];
+    let nonlinear = !subject.class.is_global();
+    reasons.into_iter().filter_map(move |(name, reason)| Some((name, reason.as_deref().filter(|_| nonlinear)?)))
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Found<'a> {
+    file: &'a str,
+    title: &'a str,
+    class: String,
+    not_geometric: Option<&'a str>,
+    not_convex: Option<&'a str>,
+    variables: usize,
+    constraints: usize,
+    derivatives: Option<Derivatives>,
+}
+
+#[derive(Serialize)]
+struct Derivatives {
+    compared: usize,
+    disagreements: usize,
+}
+
+impl<'a> Found<'a> {
+    fn of(subject: &'a Subject, check: Option<&DerivativeCheck>) -> Self {
+        let (about, meta) = (&subject.about, subject.model().meta());
+        Found {
+            file: &about.file,
+            title: &about.title,
+            class: subject.class.to_string(),
+            not_geometric: subject.not_geometric.as_deref(),
+            not_convex: subject.not_convex.as_deref(),
+            variables: meta.variables(),
+            constraints: meta.rows(),
+            derivatives: check.map(|check| Derivatives { compared: check.compared, disagreements: check.disagreements }),
+        }
+    }
 }
 
 fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
@@ -33,11 +87,8 @@ fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
     let (sections, ribs) = (subject.problem().sections.names.len(), subject.problem().ribs.names.len());
     writeln!(out, "{} ({}): no mistakes", about.title, about.file)?;
     writeln!(out, "class: {}", subject.class)?;
-    let misses = [("a geometric program", &subject.not_geometric), ("convex", &subject.not_convex)];
-    for (class, reason) in misses {
-        if let Some(reason) = reason.as_ref().filter(|_| !subject.class.is_global()) {
-            writeln!(out, "  not shown to be {class}: {reason}")?;
-        }
+    for (name, reason) in misses(subject) {
+        writeln!(out, "  not shown to be {name}: {reason}")?;
     }
     writeln!(out, "{}, {}", count(sections, "section"), count(ribs, "rib"))?;
     writeln!(out, "{}, {fixed} of them fixed", count(meta.variables(), "variable"))?;

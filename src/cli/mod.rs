@@ -10,6 +10,7 @@ mod live_table;
 mod mesh;
 mod output;
 mod reference;
+mod section;
 mod solve;
 mod verify;
 
@@ -41,6 +42,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),
         Command::Mesh { stage } => mesh::run(&stage),
         Command::Schema => reference::schema(),

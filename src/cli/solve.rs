@@ -27,6 +27,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
         out: arguments.out.as_deref(),
         start: arguments.start.as_deref(),
         starts: arguments.starts as usize,
+        plot: arguments.plot,
         interrupt: Some(interrupt),
     };
     let mut table = live_table::on_terminal(arguments.quiet);

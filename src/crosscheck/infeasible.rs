@@ -1,17 +1,18 @@
 //! No feasible point was found: the elastic phase, and which limits conflict.
 
+mod filter;
+
 use super::Conflict;
 use super::attempt::{Contestant, Referee};
 use super::seeds::Seeds;
 use crate::certificate::{Certificate, Certifier};
 use crate::model::{Elastic, Model};
+use filter::Core;
 
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
-/// Seconds for one elastic solve, and for the deletion filter, at the most.
+/// Seconds for one elastic solve at the most.
 const SOLVE_SECONDS: f64 = 60.0;
-/// Rows the deletion filter tries at the most.
-const FILTERED: usize = 60;
 
 /// What the elastic phase found.
 pub(super) enum Elasticity {
@@ -98,7 +99,12 @@ impl<'a> Work<'a> {
 
     /// The elastic minimum over these rows by the first backend that proves it, else the lowest.
     fn relax(&self, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        let elastic = Elastic::new(self.model, rows.to_vec(), start).ok()?;
+        self.relax_model(self.model, rows, start)
+    }
+
+    /// The same with the bounds of `model`.
+    fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
+        let elastic = Elastic::new(model, rows.to_vec(), start).ok()?;
         let judge = Certifier::new(&elastic, self.referee.task.class, self.referee.tolerances);
         let mut best: Option<Relaxed> = None;
         for &contestant in self.contestants {
@@ -119,42 +125,16 @@ impl<'a> Work<'a> {
         best
     }
 
-    /// The violated rows, and a small set that conflicts: the rows with multipliers, thinned out by leaving each away in turn.
+    /// The violated rows, and a small set that conflicts.
     fn conflict(&self, best: &Relaxed, x: &[f64]) -> Conflict {
         let relaxations = self.violations(x);
-        let (rows, last, complete) = self.filter(best);
-        let bounds = self.bounds(last.as_ref().unwrap_or(best));
+        let Core { members, complete } = filter::filter(self, best);
         // Rows beyond the user's own belong to the substitution.
         let own = self.referee.task.model.meta().rows();
-        let rows = rows.into_iter().filter(|&row| row < own).collect();
-        let minimal = complete && bounds.is_empty() && self.referee.task.class.is_global();
+        let rows = members.iter().filter_map(|member| member.row()).filter(|&row| row < own).collect();
+        let bounds = members.iter().filter_map(|member| member.bound()).collect();
+        let minimal = complete && self.referee.task.class.is_global();
         Conflict { violated_rows: relaxations.clone(), rows, bounds, relaxations, minimal }
-    }
-
-    /// The deletion filter of Chinneck and Dravnieks (1991), begun from the rows with multipliers. Returns the rows left, their
-    /// elastic minimum, and whether every deletion was decided.
-    fn filter(&self, best: &Relaxed) -> (Vec<usize>, Option<Relaxed>, bool) {
-        let (mut rows, mut kept, mut last, mut complete) = (best.carriers.clone(), Vec::new(), None, true);
-        while let Some(&next) = rows.iter().find(|row| !kept.contains(*row)) {
-            if self.referee.clock.is_over() || kept.len() >= FILTERED {
-                return (rows, last, false);
-            }
-            let fewer: Vec<usize> = rows.iter().copied().filter(|&row| row != next).collect();
-            let decided = if fewer.is_empty() { None } else { self.relax(&fewer, &best.x) };
-            match decided.filter(|relaxed| relaxed.certificate.certified) {
-                Some(relaxed) if relaxed.violation > self.least() => {
-                    // What carries no multiplier in the smaller problem can go with it.
-                    rows = fewer.into_iter().filter(|row| kept.contains(row) || relaxed.carriers.contains(row)).collect();
-                    last = Some(relaxed);
-                }
-                Some(_) => kept.push(next),
-                None => {
-                    complete &= fewer.is_empty();
-                    kept.push(next);
-                }
-            }
-        }
-        (rows, last, complete)
     }
 
     /// Violation in all below which a set of rows counts as compatible.

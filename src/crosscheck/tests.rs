@@ -4,7 +4,7 @@ use num_dual::DualNum;
 
 use super::*;
 use crate::backends::argmin::Argmin;
-use crate::model::sample::Sample;
+use crate::model::sample::{Sample, Value};
 use crate::model::{Class, Model};
 use crate::problem::Settings;
 
@@ -31,13 +31,13 @@ fn verdict(model: &Sample, class: Class, starts: usize) -> Outcome {
     outcome
 }
 
-fn square(x: &crate::model::sample::Value) -> crate::model::sample::Value {
-    x.clone() * x
+fn square(x: &Value) -> Value {
+    x * x
 }
 
 #[test]
 fn backends_agree_on_a_minimum() {
-    let model = Sample::new(&[0.5, 0.5], |x| x[0].clone() + &x[1]).row(-INF, 1.0, |x| square(&x[0]) + square(&x[1]));
+    let model = Sample::new(&[0.5, 0.5], |x| x[0] + x[1]).row(-INF, 1.0, |x| square(&x[0]) + square(&x[1]));
     let outcome = verdict(&model, Class::Convex, 0);
     assert_eq!((outcome.status, outcome.exit_code()), (Status::Certified, 0));
     assert!(outcome.objective.is_some_and(|f| (f + 2f64.sqrt()).abs() < 1e-8));
@@ -54,10 +54,10 @@ fn a_start_on_a_saddle_is_left() {
 
 #[test]
 fn an_infeasible_problem_shows_what_conflicts() {
-    let model = Sample::new(&[0.0, 0.0], |x| x[0].clone())
+    let model = Sample::new(&[0.0, 0.0], |x| x[0])
         .row(-INF, 1.0, |x| square(&x[0]) + square(&x[1]))
-        .row(2.0, INF, |x| x[0].clone() + &x[1])
-        .row(-INF, 7.0, |x| x[0].clone());
+        .row(2.0, INF, |x| x[0] + x[1])
+        .row(-INF, 7.0, |x| x[0]);
     let outcome = verdict(&model, Class::Convex, 0);
     assert_eq!((outcome.status, outcome.exit_code()), (Status::Infeasible, 3));
     let conflict = outcome.conflict.unwrap();
@@ -67,10 +67,9 @@ fn an_infeasible_problem_shows_what_conflicts() {
 
 #[test]
 fn inconsistent_equalities_are_infeasible() {
-    let model =
-        Sample::new(&[1.0, 1.0], |x| square(&x[0]) + square(&x[1]))
-            .row(1.0, 1.0, |x| x[0].clone() + &x[1])
-            .row(3.0, 3.0, |x| x[0].clone() * 2.0 + x[1].clone() * 2.0);
+    let model = Sample::new(&[1.0, 1.0], |x| square(&x[0]) + square(&x[1]))
+        .row(1.0, 1.0, |x| x[0] + x[1])
+        .row(3.0, 3.0, |x| x[0] * 2.0 + x[1] * 2.0);
     let outcome = verdict(&model, Class::Convex, 0);
     assert_eq!(outcome.exit_code(), 3);
     assert_eq!(outcome.conflict.unwrap().rows, [0, 1]);
@@ -78,21 +77,16 @@ fn inconsistent_equalities_are_infeasible() {
 
 #[test]
 fn infeasible_by_a_millionth_is_infeasible() {
-    let model =
-        Sample::new(&[0.0], |x| x[0].clone())
-            .bound(0, -5.0, 5.0)
-            .row(1.000_001, INF, |x| x[0].clone())
-            .row(-INF, 1.0, |x| x[0].clone());
+    let model = Sample::new(&[0.0], |x| x[0]).bound(0, -5.0, 5.0).row(1.000_001, INF, |x| x[0]).row(-INF, 1.0, |x| x[0]);
     assert_eq!(verdict(&model, Class::Linear, 0).exit_code(), 3);
 }
 
 #[test]
 fn one_row_against_the_bounds_names_both() {
-    let model =
-        Sample::new(&[0.03, 0.1], |x| x[0].clone() * &x[1])
-            .bound(0, 0.01, 0.05)
-            .bound(1, 0.05, 0.2)
-            .row(-INF, 1.0, |x| (x[0].clone() * square(&x[1])).recip() * 0.01);
+    let model = Sample::new(&[0.03, 0.1], |x| x[0] * x[1])
+        .bound(0, 0.01, 0.05)
+        .bound(1, 0.05, 0.2)
+        .row(-INF, 1.0, |x| (x[0] * square(&x[1])).recip() * 0.01);
     let outcome = verdict(&model, Class::Nonlinear, 0);
     assert_eq!(outcome.exit_code(), 3);
     let conflict = outcome.conflict.unwrap();
@@ -102,8 +96,8 @@ fn one_row_against_the_bounds_names_both() {
 
 #[test]
 fn a_local_minimum_of_the_violation_does_not_deceive() {
-    let cubic = |x: &crate::model::sample::Value| x.powi(3) - square(x) * 2.0 - x.clone() * 3.0 + 10.0;
-    let model = Sample::new(&[1.2], |x| -x[0].clone()).bound(0, -5.0, 3.0).row(-INF, 0.0, move |x| cubic(&x[0]));
+    let cubic = |x: &Value| x.powi(3) - square(x) * 2.0 - *x * 3.0 + 10.0;
+    let model = Sample::new(&[1.2], |x| -x[0]).bound(0, -5.0, 3.0).row(-INF, 0.0, move |x| cubic(&x[0]));
     let outcome = verdict(&model, Class::Nonlinear, 0);
     assert_eq!(outcome.exit_code(), 0);
     assert!((outcome.x[0] + 2.0).abs() < 1e-6);
@@ -111,18 +105,14 @@ fn a_local_minimum_of_the_violation_does_not_deceive() {
 
 #[test]
 fn unbounded_problems_show_a_direction() {
-    let linear = Sample::new(&[1.0, 1.0], |x| -x[0].clone() - &x[1])
-        .bound(0, 0.0, INF)
-        .bound(1, 0.0, INF)
-        .row(-INF, 1.0, |x| x[0].clone() - &x[1]);
+    let linear = Sample::new(&[1.0, 1.0], |x| -x[0] - x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF).row(-INF, 1.0, |x| x[0] - x[1]);
     let outcome = verdict(&linear, Class::Linear, 0);
     assert_eq!((outcome.status, outcome.exit_code()), (Status::Unbounded, 4));
     assert!(outcome.direction.is_some_and(|v| v[1] > 0.0 && v[0] <= v[1]));
-    let ratio =
-        Sample::new(&[1.0, 1.0], |x| x[0].clone() - &x[1])
-            .bound(0, 0.001, INF)
-            .bound(1, 0.001, INF)
-            .row(-INF, 1.0, |x| x[1].clone() / square(&x[0]));
+    let ratio = Sample::new(&[1.0, 1.0], |x| x[0] - x[1])
+        .bound(0, 0.001, INF)
+        .bound(1, 0.001, INF)
+        .row(-INF, 1.0, |x| x[1] / square(&x[0]));
     assert_eq!(verdict(&ratio, Class::Nonlinear, 0).status, Status::Unbounded);
 }
 
@@ -141,7 +131,7 @@ fn an_infimum_not_attained_is_told_from_unbounded() {
 #[test]
 fn many_starts_list_distinct_minima_and_find_the_best() {
     // (x² − 1)² + x/4: minima near ±1, the left one lower.
-    let model = Sample::new(&[1.0], |x| (square(&x[0]) - 1.0).powi(2) + x[0].clone() * 0.25).bound(0, -3.0, 3.0);
+    let model = Sample::new(&[1.0], |x| (square(&x[0]) - 1.0).powi(2) + x[0] * 0.25).bound(0, -3.0, 3.0);
     let outcome = verdict(&model, Class::Nonlinear, 16);
     assert_eq!(outcome.exit_code(), 0);
     assert_eq!(outcome.minima.len(), 2, "{:?}", outcome.minima);
@@ -151,10 +141,11 @@ fn many_starts_list_distinct_minima_and_find_the_best() {
 
 #[test]
 fn where_no_multipliers_exist_a_minimum_is_claimed_only_at_the_minimum() {
-    let model = Sample::new(&[0.0, 0.0], |x| (x[0].clone() - 2.0).powi(2) + square(&x[1]))
-        .bound(0, 0.0, INF)
-        .bound(1, 0.0, INF)
-        .row(0.0, INF, |x| (-x[0].clone() + 1.0).powi(3) - &x[1]);
+    let model = Sample::new(&[0.0, 0.0], |x| (x[0] - 2.0).powi(2) + square(&x[1])).bound(0, 0.0, INF).bound(1, 0.0, INF).row(
+        0.0,
+        INF,
+        |x| (-x[0] + 1.0).powi(3) - x[1],
+    );
     let outcome = verdict(&model, Class::Nonlinear, 0);
     let close = outcome.objective.is_some_and(|f| (f - 1.0).abs() < 1e-4);
     assert!(outcome.exit_code() == 1 || (outcome.exit_code() == 0 && close));

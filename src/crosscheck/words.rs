@@ -105,8 +105,9 @@ pub(super) fn undecided(outcome: &mut Outcome) {
 /// Why an answer is not certified.
 fn why(answer: &Answer) -> String {
     let tests = answer.certificate.iter().flat_map(|certificate| certificate.messages.iter().cloned());
-    let all: Vec<_> =
-        answer.solution.invalid.iter().cloned().chain(tests.take(2)).chain([answer.solution.message.clone()]).collect();
+    let (message, invalid) = (&answer.solution.message, &answer.solution.invalid);
+    let untold = invalid.iter().filter(|invalid| !message.contains(invalid.as_str())).cloned();
+    let all: Vec<_> = untold.chain(tests.take(2)).chain([message.clone()]).collect();
     let all: Vec<_> = all.iter().map(|text| text.trim_end_matches('.')).filter(|text| !text.is_empty()).collect();
     all.join(" — ")
 }

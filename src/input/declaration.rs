@@ -77,7 +77,8 @@ pub(super) enum Degree {
 
 /// `points = [[x, y], …]`: numbers or constant expressions.
 pub(super) struct PointsEntry {
-    pub list: Vec<[Scalar; 2]>,
+    /// `None` after a mistake in one of them.
+    pub list: Option<Vec<[Scalar; 2]>>,
     pub place: Place,
 }
 

@@ -7,7 +7,14 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("ribs", include_str!("examples/ribs.toml")),
     ("rectangle", include_str!("examples/rectangle.toml")),
     ("h-beam", include_str!("examples/h-beam.toml")),
-    ("sections", include_str!("examples/sections.toml")),
+    ("superellipse", include_str!("examples/superellipse.toml")),
+    ("tee", include_str!("examples/tee.toml")),
+    ("box", include_str!("examples/box.toml")),
+    ("circle", include_str!("examples/circle.toml")),
+    ("tube", include_str!("examples/tube.toml")),
+    ("polygon", include_str!("examples/polygon.toml")),
+    ("polyline", include_str!("examples/polyline.toml")),
+    ("profile", include_str!("examples/profile.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
 ];
 

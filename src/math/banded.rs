@@ -63,10 +63,10 @@ impl Banded {
     pub fn solve<const D: usize>(mut self, x: &mut [[f64; D]]) -> Result<(), Singular> {
         debug_assert_eq!(x.len(), self.n);
         let size: Vec<f64> = (0..self.n).map(|i| self.row_size(i)).collect();
-        for k in 0..self.n {
+        for (k, size) in size.into_iter().enumerate() {
             let pivot = self.entries[self.at(k, k)];
             // `>` also catches NaN.
-            if !(pivot.abs() > f64::EPSILON * f64::EPSILON * size[k] && pivot.is_finite()) {
+            if !(pivot.abs() > f64::EPSILON * f64::EPSILON * size && pivot.is_finite()) {
                 return Err(Singular { row: k });
             }
             for i in k + 1..self.n.min(k + self.lower + 1) {
@@ -92,17 +92,20 @@ impl Banded {
             let (target, source) = (self.at(i, j), self.at(k, j));
             self.entries[target] -= factor * self.entries[source];
         }
-        for d in 0..D {
-            x[i][d] -= factor * x[k][d];
+        let source = x[k];
+        for (target, source) in x[i].iter_mut().zip(source) {
+            *target -= factor * source;
         }
     }
 
     fn substitute<const D: usize>(&self, x: &mut [[f64; D]]) {
         for k in (0..self.n).rev() {
-            for d in 0..D {
-                let known: f64 = (k + 1..self.n.min(k + self.upper + 1)).map(|j| self.entries[self.at(k, j)] * x[j][d]).sum();
-                x[k][d] = (x[k][d] - known) / self.entries[self.at(k, k)];
+            let mut row = x[k];
+            for (j, known) in x.iter().enumerate().take(k + self.upper + 1).skip(k + 1) {
+                let factor = self.entries[self.at(k, j)];
+                row.iter_mut().zip(known).for_each(|(target, known)| *target -= factor * known);
             }
+            x[k] = row.map(|value| value / self.entries[self.at(k, k)]);
         }
     }
 }

@@ -174,4 +174,9 @@ impl Model for RibModel {
         let RowOrigin { constraint, item } = self.row_origin[i];
         self.problem.row_name(constraint as usize, item as usize)
     }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        let constraint = self.row_origin.get(i)?.constraint as usize;
+        self.problem.constraints.get(constraint).map(|constraint| constraint.place.clone())
+    }
 }

@@ -162,24 +162,16 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::model::handmade::{Formulas, Handmade};
-
-    struct Rows;
-
-    impl Formulas for Rows {
-        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-            x[0].powi(2) * x[1] + x[2].sin()
-        }
-
-        fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-            vec![x[0] * x[1], x[1].exp() + x[2], x[0] - x[2] * x[2], x[2] * x[0]]
-        }
-    }
+    use crate::model::sample::Sample;
 
     /// An equality, both sides of a range, and a row that is not active.
-    fn model() -> Handmade<Rows> {
-        let rows = [(1.0, 1.0), (f64::NEG_INFINITY, 2.0), (0.5, 3.0), (f64::NEG_INFINITY, 50.0)];
-        Handmade::new(Rows, &[(-9.0, 1.0, 9.0); 3], &rows)
+    fn model() -> Sample {
+        Sample::new(&[1.0; 3], |x| x[0].powi(2) * x[1] + x[2].sin())
+            .bounds(&[-9.0; 3], &[9.0; 3])
+            .row(1.0, 1.0, |x| x[0] * x[1])
+            .row(f64::NEG_INFINITY, 2.0, |x| x[1].exp() + x[2])
+            .row(0.5, 3.0, |x| x[0] - x[2] * x[2])
+            .row(f64::NEG_INFINITY, 50.0, |x| x[2] * x[0])
     }
 
     #[test]

@@ -37,9 +37,9 @@ pub struct DerivativeCheck {
 impl DerivativeCheck {
     fn add(&mut self, entry: Entry) {
         self.compared += 1;
-        // Negated, so that a NaN counts as a disagreement.
-        self.disagreements += usize::from(!(entry.error <= TOLERANCE));
-        if self.worst.as_ref().is_none_or(|worst| !(entry.error <= worst.error)) {
+        // A NaN counts as a disagreement.
+        self.disagreements += usize::from(entry.error.is_nan() || entry.error > TOLERANCE);
+        if self.worst.as_ref().is_none_or(|worst| entry.error.is_nan() || entry.error > worst.error) {
             self.worst = Some(entry);
         }
     }

@@ -255,23 +255,14 @@ mod tests {
 
     use super::*;
     use crate::model::derivative_check::derivative_check;
-    use crate::model::handmade::{Formulas, Handmade};
+    use crate::model::sample::Sample;
 
     /// x = (h, hw, b): a flange area with a root, and rows that hold h, hw and both.
-    struct Flanges;
-
-    impl Formulas for Flanges {
-        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-            x[2] * (x[0] - x[1]) + ((x[0] - x[1]) * x[2]).sqrt() * x[1]
-        }
-
-        fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-            vec![x[2] * x[0].powi(3) - x[1].powi(3), x[0] * x[0] * x[1]]
-        }
-    }
-
-    fn model() -> Handmade<Flanges> {
-        Handmade::new(Flanges, &[(0.1, 0.6, 1.0), (0.1, 0.4, 0.9), (0.01, 0.2, 1.0)], &[(0.1, 2.0), (0.0, 1.0)])
+    fn model() -> Sample {
+        Sample::new(&[0.6, 0.4, 0.2], |x| x[2] * (x[0] - x[1]) + ((x[0] - x[1]) * x[2]).sqrt() * x[1])
+            .bounds(&[0.1, 0.1, 0.01], &[1.0, 0.9, 1.0])
+            .row(0.1, 2.0, |x| x[2] * x[0].powi(3) - x[1].powi(3))
+            .row(0.0, 1.0, |x| x[0] * x[0] * x[1])
     }
 
     #[test]

@@ -54,7 +54,7 @@ fn direction(k: usize, random: &mut SplitMix) -> impl FnMut(usize, usize) -> f64
     move |j, n| match k {
         0 => 1.0,
         1 => -1.0,
-        _ if k % 2 == 0 && k / 2 <= 2 * n => {
+        _ if k.is_multiple_of(2) && k / 2 <= 2 * n => {
             let (place, up) = ((k / 2 - 1) / 2, (k / 2) % 2 == 1);
             if j != place {
                 0.0
@@ -98,25 +98,16 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::model::handmade::{Formulas, Handmade};
+    use crate::model::sample::Sample;
 
     /// Has values where x > y + 2 only.
-    struct Logarithm;
-
-    impl Formulas for Logarithm {
-        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-            (x[0] - x[1] - 2.0).ln()
-        }
-
-        fn rows<D: DualNum<f64> + Copy>(&self, _: &[D]) -> Vec<D> {
-            Vec::new()
-        }
+    fn logarithm(lower: f64, start: [f64; 2], upper: f64) -> Sample {
+        Sample::new(&start, |x| (x[0] - x[1] - 2.0).ln()).bounds(&[lower; 2], &[upper; 2])
     }
 
     #[test]
     fn a_start_outside_the_domain_is_moved_inside_and_one_inside_stays() {
-        let bounds = [(-10.0, -1.0, 10.0), (-10.0, 3.0, 10.0)];
-        let model = Handmade::new(Logarithm, &bounds, &[]);
+        let model = logarithm(-10.0, [-1.0, 3.0], 10.0);
         let x = valid_near(&model, &[-1.0, 3.0]).unwrap();
         assert!(x[0] > x[1] + 2.0 && x.iter().all(|x| x.abs() <= 10.0), "{x:?}");
         assert_eq!(valid_near(&model, &[5.0, 1.0]).unwrap(), [5.0, 1.0]);
@@ -124,7 +115,7 @@ mod tests {
 
     #[test]
     fn where_no_point_has_values_the_error_of_the_start_is_told() {
-        let model = Handmade::new(Logarithm, &[(0.0, 0.5, 1.0), (0.0, 0.5, 1.0)], &[]);
+        let model = logarithm(0.0, [0.5, 0.5], 1.0);
         assert!(valid_near(&model, &[0.5, 0.5]).is_err());
     }
 }

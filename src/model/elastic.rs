@@ -187,10 +187,10 @@ mod tests {
 
     #[test]
     fn slacks_make_any_point_feasible_and_derivatives_agree_with_differences() {
-        let model = Sample::new(&[1.5, 2.0], |x| x[0].clone())
-            .row(-INF, 1.0, |x| x[0].clone() * &x[0] + x[1].clone() * &x[1])
-            .row(9.0, 9.0, |x| x[0].clone() * &x[1])
-            .row(3.0, INF, |x| x[0].clone() - &x[1]);
+        let model = Sample::new(&[1.5, 2.0], |x| x[0])
+            .row(-INF, 1.0, |x| x[0] * x[0] + x[1] * x[1])
+            .row(9.0, 9.0, |x| x[0] * x[1])
+            .row(3.0, INF, |x| x[0] - x[1]);
         let elastic = Elastic::new(&model, vec![0, 1, 2], &[1.5, 2.0]).unwrap();
         let start = elastic.meta().start.clone();
         assert_eq!(start.len(), 6);
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn rows_left_out_do_not_count() {
-        let model = Sample::new(&[0.0], |x| x[0].clone()).row(1.0, INF, |x| x[0].clone()).row(-INF, -1.0, |x| x[0].clone());
+        let model = Sample::new(&[0.0], |x| x[0]).row(1.0, INF, |x| x[0]).row(-INF, -1.0, |x| x[0]);
         let elastic = Elastic::new(&model, vec![1], &[0.0]).unwrap();
         assert_eq!((elastic.meta().rows(), elastic.row(0), elastic.violation(&elastic.meta().start)), (1, 1, 1.0 + ROOM));
     }

@@ -204,29 +204,19 @@ mod tests {
 
     use super::*;
     use crate::model::derivative_check::derivative_check;
-    use crate::model::handmade::{Formulas, Handmade};
+    use crate::model::sample::Sample;
 
     /// A posynomial objective, a monomial row and a posynomial row.
-    struct Posynomials;
-
-    impl Formulas for Posynomials {
-        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-            x[0] * x[1] * 2.0 + x[2] / x[0] + (x[0] * x[1] * x[2]).sqrt()
-        }
-
-        fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-            vec![x[0] * x[1].powi(3) / 12.0, x[0] / x[1] + x[2] * x[2] * 0.5]
-        }
+    fn model(least: f64) -> Sample {
+        Sample::new(&[0.6, 0.4, 0.2], |x| x[0] * x[1] * 2.0 + x[2] / x[0] + (x[0] * x[1] * x[2]).sqrt())
+            .bounds(&[least, 0.1, 0.0], &[1.0, 0.9, 1.0])
+            .row(1e-3, f64::INFINITY, |x| x[0] * x[1].powi(3) / 12.0)
+            .row(0.0, 1.0, |x| x[0] / x[1] + x[2] * x[2] * 0.5)
     }
 
     #[test]
     fn derivatives_stay_exact_and_monomial_rows_become_affine() {
-        let model = Handmade::new(
-            Posynomials,
-            &[(0.1, 0.6, 1.0), (0.1, 0.4, 0.9), (0.0, 0.2, 1.0)],
-            &[(1e-3, f64::INFINITY), (0.0, 1.0)],
-        );
-        let log = Logarithmic::new(Arc::new(model), vec![true, false]).unwrap();
+        let log = Logarithmic::new(Arc::new(model(0.1)), vec![true, false]).unwrap();
         let check = derivative_check(&log, &[-0.7, -1.1, -0.4]).unwrap();
         assert_eq!(check.disagreements, 0, "{:?}", check.worst);
         let mut jacobian = [0.0; 6];
@@ -241,7 +231,6 @@ mod tests {
 
     #[test]
     fn variables_that_may_be_negative_have_no_logarithm() {
-        let model = Handmade::new(Posynomials, &[(-0.1, 0.6, 1.0), (0.1, 0.4, 0.9), (0.0, 0.2, 1.0)], &[]);
-        assert!(Logarithmic::new(Arc::new(model), vec![]).is_none());
+        assert!(Logarithmic::new(Arc::new(model(-0.1)), vec![true, false]).is_none());
     }
 }

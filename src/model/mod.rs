@@ -15,8 +15,6 @@ pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;
-#[cfg(test)]
-pub mod handmade;
 pub mod logarithmic;
 pub mod pattern;
 pub mod rebounded;
@@ -107,6 +105,11 @@ pub trait Model: Sync {
     /// The name of row i, for messages.
     fn row_name(&self, i: usize) -> String {
         format!("c{}", i + 1)
+    }
+
+    /// Where row i is declared, ready to print (`file.toml:12`), where that is known.
+    fn row_place(&self, _i: usize) -> Option<String> {
+        None
     }
 }
 

@@ -1,17 +1,16 @@
-//! Small models for tests: closures over num-dual's hyper-dual numbers, dense patterns.
+//! Small models for tests: closures, differentiated exactly by hyper-dual numbers, with dense patterns.
 
-use nalgebra::{DVector, Dyn};
-use num_dual::Dual2Vec64;
+use num_dual::HyperDual64;
 
 use super::{EvaluationError, Meta, Model, Pattern};
 
-/// A number that carries gradient and Hessian.
-pub type Value = Dual2Vec64<Dyn>;
+/// The number the closures compute with.
+pub(crate) type Value = HyperDual64;
 
-type Function = Box<dyn Fn(&[Value]) -> Value + Sync>;
+type Function = Box<dyn Fn(&[Value]) -> Value + Send + Sync>;
 
 /// A model put together by hand.
-pub struct Sample {
+pub(crate) struct Sample {
     meta: Meta,
     objective: Function,
     rows: Vec<Function>,
@@ -19,12 +18,16 @@ pub struct Sample {
 
 impl Sample {
     /// Minimise `objective` from `start`, without bounds or rows.
-    pub fn new(start: &[f64], objective: impl Fn(&[Value]) -> Value + Sync + 'static) -> Sample {
+    pub fn new(start: &[f64], objective: impl Fn(&[Value]) -> Value + Send + Sync + 'static) -> Sample {
         let n = start.len();
-        let mut all = (0..n as u32).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-        let hessian = Pattern::from_positions(n, &mut all);
-        let (lower, upper) = (vec![f64::NEG_INFINITY; n], vec![f64::INFINITY; n]);
-        let meta = Meta { lower, upper, start: start.to_vec(), hessian, ..Meta::default() };
+        let mut triangle = (0..n as u32).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
+        let meta = Meta {
+            lower: vec![f64::NEG_INFINITY; n],
+            upper: vec![f64::INFINITY; n],
+            start: start.to_vec(),
+            hessian: Pattern::from_positions(n, &mut triangle),
+            ..Meta::default()
+        };
         Sample { meta, objective: Box::new(objective), rows: Vec::new() }
     }
 
@@ -34,32 +37,34 @@ impl Sample {
         self
     }
 
-    /// One more row.
-    pub fn row(mut self, lower: f64, upper: f64, function: impl Fn(&[Value]) -> Value + Sync + 'static) -> Sample {
-        self.rows.push(Box::new(function));
+    /// Bounds of every variable.
+    pub fn bounds(mut self, lower: &[f64], upper: &[f64]) -> Sample {
+        (self.meta.lower, self.meta.upper) = (lower.to_vec(), upper.to_vec());
+        self
+    }
+
+    /// One more row: lower ≤ row ≤ upper.
+    pub fn row(mut self, lower: f64, upper: f64, row: impl Fn(&[Value]) -> Value + Send + Sync + 'static) -> Sample {
+        self.rows.push(Box::new(row));
         self.meta.row_lower.push(lower);
         self.meta.row_upper.push(upper);
         self.meta.row_is_linear.push(false);
         let (m, n) = (self.rows.len() as u32, self.meta.variables() as u32);
-        self.meta.jacobian = Pattern::from_positions(m as usize, &mut (0..m).flat_map(|i| (0..n).map(move |j| (i, j))).collect());
+        let mut full = (0..m).flat_map(|i| (0..n).map(move |j| (i, j))).collect();
+        self.meta.jacobian = Pattern::from_positions(self.rows.len(), &mut full);
         self
     }
+}
 
-    fn evaluate(&self, function: &Function, x: &[f64]) -> Result<Value, EvaluationError> {
-        let n = x.len();
-        let seed = |j: usize| {
-            let mut value = Value::from_re(x[j]);
-            value.v1 = num_dual::Derivative::derivative_generic(nalgebra::Const::<1>, Dyn(n), j);
-            value
-        };
-        let value = function(&(0..n).map(seed).collect::<Vec<_>>());
-        let cause = format!("the value is {}", value.re);
-        if value.re.is_finite() { Ok(value) } else { Err(EvaluationError::Invalid { term: "sample".into(), cause }) }
-    }
+/// The point with the infinitesimals ε₁ on x_i and ε₂ on x_j.
+fn seeded(x: &[f64], i: usize, j: usize) -> Vec<Value> {
+    let unit = |on: bool| f64::from(u8::from(on));
+    x.iter().enumerate().map(|(k, &x)| Value::new(x, unit(k == i), unit(k == j), 0.0)).collect()
+}
 
-    fn gradient_of(value: &Value, n: usize) -> DVector<f64> {
-        value.v1.clone().unwrap_generic(nalgebra::Const::<1>, Dyn(n)).transpose()
-    }
+fn finite(value: f64, term: &str) -> Result<f64, EvaluationError> {
+    let invalid = || EvaluationError::Invalid { term: term.into(), cause: format!("the value is {value}") };
+    if value.is_finite() { Ok(value) } else { Err(invalid()) }
 }
 
 impl Model for Sample {
@@ -68,37 +73,36 @@ impl Model for Sample {
     }
 
     fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        Ok(self.evaluate(&self.objective, x)?.re)
+        finite((self.objective)(&seeded(x, 0, 0)).re, "objective")
     }
 
     fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let value = self.evaluate(&self.objective, x)?;
-        gradient.copy_from_slice(Self::gradient_of(&value, x.len()).as_slice());
-        Ok(value.re)
+        for (j, gradient) in gradient.iter_mut().enumerate() {
+            *gradient = finite((self.objective)(&seeded(x, j, j)).eps1, "objective")?;
+        }
+        self.objective(x)
     }
 
     fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        for (row, value) in self.rows.iter().zip(values) {
-            *value = self.evaluate(row, x)?.re;
+        for (value, row) in values.iter_mut().zip(&self.rows) {
+            *value = finite(row(&seeded(x, 0, 0)).re, "row")?;
         }
         Ok(())
     }
 
     fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        for (row, values) in self.rows.iter().zip(values.chunks_mut(x.len())) {
-            values.copy_from_slice(Self::gradient_of(&self.evaluate(row, x)?, x.len()).as_slice());
+        for (value, (i, j)) in values.iter_mut().zip(self.meta.jacobian.iter()) {
+            *value = finite(self.rows[i](&seeded(x, j, j)).eps1, "row")?;
         }
         Ok(())
     }
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        values.fill(0.0);
-        let n = x.len();
-        for (factor, function) in std::iter::once((weight, &self.objective)).chain(y.iter().copied().zip(&self.rows)) {
-            let hessian = self.evaluate(function, x)?.v2.unwrap_generic(Dyn(n), Dyn(n));
-            for (value, (i, j)) in values.iter_mut().zip(self.meta.hessian.iter()) {
-                *value += factor * hessian[(i, j)];
-            }
+        for (value, (i, j)) in values.iter_mut().zip(self.meta.hessian.iter()) {
+            let x = seeded(x, i, j);
+            let rows = self.rows.iter().zip(y).map(|(row, y)| if *y == 0.0 { 0.0 } else { y * row(&x).eps1eps2 });
+            let objective = if weight == 0.0 { 0.0 } else { weight * (self.objective)(&x).eps1eps2 };
+            *value = finite(objective + rows.sum::<f64>(), "second derivatives")?;
         }
         Ok(())
     }

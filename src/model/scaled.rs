@@ -195,25 +195,16 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::model::handmade::{Formulas, Handmade};
+    use crate::model::sample::Sample;
 
-    struct Mixed;
-
-    impl Formulas for Mixed {
-        fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-            x[0].powi(3) * x[1] + x[1].exp()
-        }
-
-        fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-            vec![x[0] * x[1].powi(2), x[0].sqrt()]
-        }
+    fn model() -> Sample {
+        Sample::new(&[1e3, 1e-3], |x| x[0].powi(3) * x[1] + x[1].exp())
+            .bounds(&[0.0, -1.0], &[1e4, 2.0])
+            .row(f64::NEG_INFINITY, 1e-4, |x| x[0] * x[1].powi(2))
+            .row(3.0, 80.0, |x| x[0].sqrt())
     }
 
-    fn model() -> Handmade<Mixed> {
-        Handmade::new(Mixed, &[(0.0, 1e3, 1e4), (-1.0, 1e-3, 2.0)], &[(f64::NEG_INFINITY, 1e-4), (3.0, 80.0)])
-    }
-
-    fn scaled(model: &Handmade<Mixed>) -> Scaled<'_> {
+    fn scaled(model: &Sample) -> Scaled<'_> {
         let start = model.meta().start.clone();
         Scaled::new(model, Scales::at(model, &start, start.clone()).unwrap())
     }

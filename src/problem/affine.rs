@@ -1,5 +1,7 @@
 //! Formulas that are affine in the variables: constant + Σ coefficient·x_j.
 
+use std::collections::HashMap;
+
 use super::evaluate::{Evaluation, Item};
 use super::formula::End;
 use super::{Dimension, Formula, Problem, Variables};
@@ -23,52 +25,12 @@ impl Affine {
 
     /// The formula in the scope of `item`, if it is written affinely (no cancelling of curved terms is looked for).
     pub fn of(problem: &Problem, formula: &Formula, item: Item) -> Option<Affine> {
-        let part = |formula| Affine::of(problem, formula, item);
-        match formula {
-            Formula::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(*j, 1.0)] }),
-            Formula::Definition(d) => Affine::of(problem, &problem.definitions.get(*d as usize)?.1, Item::None),
-            Formula::SectionProperty(s, property) => Affine::of_property(problem, *s, &property.0),
-            Formula::OwnProperty(property) => match item {
-                Item::Section(s) => Affine::of_property(problem, s, &property.0),
-                _ => None,
-            },
-            Formula::EndProperty(end, property) => {
-                let Item::Rib(r) = item else { return None };
-                let ends = if *end == End::From { &problem.ribs.from } else { &problem.ribs.to };
-                Affine::of_property(problem, *ends.get(r as usize)?, &property.0)
-            }
-            Formula::Profile(profile, at) => {
-                let s = Evaluation::constants(problem).value(at, item)?;
-                let terms = problem.profiles.get(*profile as usize)?.weights(s)?;
-                Some(Affine { constant: 0.0, terms })
-            }
-            Formula::Unary(Unary::Negate, operand) => Some(part(operand)?.scaled(-1.0)),
-            Formula::Binary(op, left, right) => join(*op, part(left)?, part(right)?),
-            Formula::Fold(Fold::Sum, list) => {
-                list.iter().try_fold(Affine::default(), |sum, formula| Some(sum.plus(&part(formula)?, 1.0)))
-            }
-            other => Evaluation::constants(problem).value(other, item).map(Affine::constant),
-        }
+        Reading::of(problem).formula(formula, item)
     }
 
     /// A dimension or property of section `s`.
     pub fn of_property(problem: &Problem, s: u32, name: &str) -> Option<Affine> {
-        let number = *problem.sections.form.get(s as usize)?;
-        let (form, dimensions) = (sections::form(number), problem.dimensions(s as usize));
-        let of_dimension = |dimension: &Dimension| match *dimension {
-            Dimension::Constant(value) => Some(Affine::constant(value)),
-            Dimension::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(j, 1.0)] }),
-            Dimension::Formula(f) => Affine::of(problem, problem.dimension_formulas.get(f as usize)?, Item::Section(s)),
-        };
-        if let Some(at) = form.dimensions.iter().position(|given| *given == name) {
-            return of_dimension(dimensions.get(at)?);
-        }
-        let mut graph = Graph::new();
-        let inputs: Vec<NodeId> = (0..dimensions.len() as u32).map(|at| graph.input(at)).collect();
-        let given = Given { form, dimensions: &inputs, outline: &[] };
-        let node = sections::kind_of(number).property(&mut graph, &given, name)?;
-        let values: Vec<Affine> = dimensions.iter().map(of_dimension).collect::<Option<_>>()?;
-        of_node(&graph, node, &values)
+        Reading::of(problem).property(s, name)
     }
 
     /// `self + factor·other`
@@ -102,6 +64,85 @@ impl Affine {
     /// The coefficient of x_j.
     pub fn coefficient(&self, j: u32) -> f64 {
         self.terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1)
+    }
+}
+
+/// What was read so far: definitions and links may share one another many times over.
+struct Reading<'a> {
+    problem: &'a Problem,
+    definitions: HashMap<u32, Option<Affine>>,
+    /// Linked dimensions, by section and formula.
+    links: HashMap<(u32, u32), Option<Affine>>,
+}
+
+impl<'a> Reading<'a> {
+    fn of(problem: &'a Problem) -> Self {
+        Reading { problem, definitions: HashMap::new(), links: HashMap::new() }
+    }
+
+    fn formula(&mut self, formula: &Formula, item: Item) -> Option<Affine> {
+        match formula {
+            Formula::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(*j, 1.0)] }),
+            Formula::Definition(d) => self.definition(*d),
+            Formula::SectionProperty(s, property) => self.property(*s, &property.0),
+            Formula::OwnProperty(property) => match item {
+                Item::Section(s) => self.property(s, &property.0),
+                _ => None,
+            },
+            Formula::EndProperty(end, property) => {
+                let Item::Rib(r) = item else { return None };
+                let ends = if *end == End::From { &self.problem.ribs.from } else { &self.problem.ribs.to };
+                self.property(*ends.get(r as usize)?, &property.0)
+            }
+            Formula::Profile(profile, at) => {
+                let s = Evaluation::constants(self.problem).value(at, item)?;
+                let terms = self.problem.profiles.get(*profile as usize)?.weights(s)?;
+                Some(Affine { constant: 0.0, terms })
+            }
+            Formula::Unary(Unary::Negate, operand) => Some(self.formula(operand, item)?.scaled(-1.0)),
+            Formula::Binary(op, left, right) => join(*op, self.formula(left, item)?, self.formula(right, item)?),
+            Formula::Fold(Fold::Sum, list) => {
+                list.iter().try_fold(Affine::default(), |sum, formula| Some(sum.plus(&self.formula(formula, item)?, 1.0)))
+            }
+            other => Evaluation::constants(self.problem).value(other, item).map(Affine::constant),
+        }
+    }
+
+    fn definition(&mut self, d: u32) -> Option<Affine> {
+        if let Some(known) = self.definitions.get(&d) {
+            return known.clone();
+        }
+        let found = self.formula(&self.problem.definitions.get(d as usize)?.1, Item::None);
+        self.definitions.insert(d, found.clone());
+        found
+    }
+
+    fn property(&mut self, s: u32, name: &str) -> Option<Affine> {
+        if let Some(dimension) = self.problem.given_dimension(s, name) {
+            return self.dimension(s, dimension);
+        }
+        let (problem, mut graph) = (self.problem, Graph::new());
+        let number = *problem.sections.form.get(s as usize)?;
+        let dimensions = problem.dimensions(s as usize);
+        let inputs: Vec<NodeId> = (0..dimensions.len() as u32).map(|at| graph.input(at)).collect();
+        let given = Given { form: sections::form(number), dimensions: &inputs, outline: &[] };
+        let node = sections::kind_of(number).property(&mut graph, &given, name)?;
+        let values: Vec<Affine> = dimensions.iter().map(|&dimension| self.dimension(s, dimension)).collect::<Option<_>>()?;
+        of_node(&graph, node, &values)
+    }
+
+    fn dimension(&mut self, s: u32, dimension: Dimension) -> Option<Affine> {
+        let formula = match dimension {
+            Dimension::Constant(value) => return Some(Affine::constant(value)),
+            Dimension::Variable(j) => return Some(Affine { constant: 0.0, terms: vec![(j, 1.0)] }),
+            Dimension::Formula(formula) => formula,
+        };
+        if let Some(known) = self.links.get(&(s, formula)) {
+            return known.clone();
+        }
+        let found = self.formula(self.problem.dimension_formulas.get(formula as usize)?, Item::Section(s));
+        self.links.insert((s, formula), found.clone());
+        found
     }
 }
 

@@ -1,5 +1,8 @@
 //! The value of a formula where it has one without any variable, or at the starting point.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
 use super::formula::{End, Members};
 use super::{Cells, Column, Dimension, Formula, Problem};
 use crate::expression::ast::Collection;
@@ -26,25 +29,45 @@ impl Item {
     }
 }
 
-/// Evaluates without a model: constants only, or with the variables at their starts.
+/// Evaluates without a model: constants only, or with the variables at a point.
 pub struct Evaluation<'a> {
     /// The problem.
     pub problem: &'a Problem,
-    /// True: variables have their starting values. False: what depends on a variable has no value.
-    pub at_start: bool,
+    /// Values of the variables; without them, what depends on a variable has no value.
+    pub x: Option<&'a [f64]>,
     /// The members of the row's group.
     pub group: Option<&'a [u32]>,
+    /// Definitions and links evaluated so far: they may share one another many times over.
+    known: RefCell<HashMap<Named, Option<f64>>>,
+}
+
+/// A formula with a name of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Named {
+    Definition(u32),
+    /// A linked dimension, by section and formula.
+    Link(u32, u32),
 }
 
 impl<'a> Evaluation<'a> {
     /// Values of what depends on no variable.
     pub fn constants(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: false, group: None }
+        Evaluation { problem, x: None, group: None, known: RefCell::default() }
+    }
+
+    /// Values of what depends on no variable, in a row of this group.
+    pub fn of_group(problem: &'a Problem, group: Option<&'a [u32]>) -> Self {
+        Evaluation { group, ..Evaluation::constants(problem) }
     }
 
     /// Values at the starting point.
     pub fn at_start(problem: &'a Problem) -> Self {
-        Evaluation { problem, at_start: true, group: None }
+        Evaluation::at(problem, &problem.variables.start)
+    }
+
+    /// Values at a point.
+    pub fn at(problem: &'a Problem, x: &'a [f64]) -> Self {
+        Evaluation { problem, x: Some(x), group: None, known: RefCell::default() }
     }
 
     /// The value; `None` where it depends on a variable, on a volume or on an empty cell.
@@ -94,12 +117,25 @@ impl<'a> Evaluation<'a> {
     }
 
     fn variable(&self, j: u32) -> Option<f64> {
-        if self.at_start { self.problem.variables.start.get(j as usize).copied() } else { None }
+        self.x?.get(j as usize).copied()
     }
 
     fn definition(&self, d: u32) -> Option<f64> {
         // Constant definitions were folded where they are used.
-        if self.at_start { self.value(&self.problem.definitions.get(d as usize)?.1, Item::None) } else { None }
+        if self.x.is_some() {
+            self.named(Named::Definition(d), &self.problem.definitions.get(d as usize)?.1, Item::None)
+        } else {
+            None
+        }
+    }
+
+    fn named(&self, name: Named, formula: &Formula, item: Item) -> Option<f64> {
+        if let Some(known) = self.known.borrow().get(&name) {
+            return *known;
+        }
+        let value = self.value(formula, item);
+        self.known.borrow_mut().insert(name, value);
+        value
     }
 
     fn end(&self, end: End, item: Item) -> Option<u32> {
@@ -111,10 +147,10 @@ impl<'a> Evaluation<'a> {
     /// A dimension or property of section `s`.
     pub fn property(&self, s: u32, name: &str) -> Option<f64> {
         let form_number = *self.problem.sections.form.get(s as usize)?;
-        let (form, dimensions) = (sections::form(form_number), self.problem.dimensions(s as usize));
-        if let Some(at) = form.dimensions.iter().position(|given| *given == name) {
-            return self.dimension(s, *dimensions.get(at)?);
+        if let Some(dimension) = self.problem.given_dimension(s, name) {
+            return self.dimension(s, dimension);
         }
+        let (form, dimensions) = (sections::form(form_number), self.problem.dimensions(s as usize));
         let values: Option<Vec<f64>> = dimensions.iter().map(|&dimension| self.dimension(s, dimension)).collect();
         let (mut graph, values) = (Graph::new(), values?);
         let nodes: Vec<NodeId> = values.into_iter().map(|value| graph.constant(value)).collect();
@@ -129,7 +165,9 @@ impl<'a> Evaluation<'a> {
         match dimension {
             Dimension::Constant(value) => Some(value),
             Dimension::Variable(j) => self.variable(j),
-            Dimension::Formula(f) => self.value(self.problem.dimension_formulas.get(f as usize)?, Item::Section(s)),
+            Dimension::Formula(f) => {
+                self.named(Named::Link(s, f), self.problem.dimension_formulas.get(f as usize)?, Item::Section(s))
+            }
         }
     }
 }

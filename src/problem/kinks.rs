@@ -3,6 +3,7 @@
 //! `max(a, b) <= c` is `a <= c` and `b <= c`; `abs(a) <= c` is `a <= c` and `-a <= c`; `min(a, b) >= c` likewise.
 //! An objective `minimize = "max(a, b)"` becomes the least bound above both: one more variable and a row for each.
 
+use super::evaluate::{Evaluation, Item};
 use super::formula::Formula;
 use super::{Constraint, Limit, Origin, Problem, Scope, Sense};
 use crate::expression::operators::{Binary, Fold, Unary};
@@ -47,36 +48,10 @@ impl Problem {
         self.objective = Formula::Variable(bound);
     }
 
-    /// The objective at the start, if it can be had from variables and definitions alone.
+    /// The objective at the start, if it has a value there.
     fn objective_start(&self) -> Option<f64> {
-        self.value_at(&self.objective, &self.variables.start, 0).or(Some(0.0)).filter(|value| value.is_finite())
-    }
-
-    fn value_at(&self, formula: &Formula, x: &[f64], depth: usize) -> Option<f64> {
-        if depth > 200 {
-            return None;
-        }
-        let of = |formula| self.value_at(formula, x, depth + 1);
-        Some(match formula {
-            Formula::Constant(value) => *value,
-            Formula::Variable(variable) => x[*variable as usize],
-            Formula::Definition(definition) => of(&self.definitions[*definition as usize].1)?,
-            Formula::Unary(op, inner) => op.evaluate(of(inner)?),
-            Formula::Binary(op, left, right) => op.evaluate(of(left)?, of(right)?),
-            Formula::Fold(fold, list) => {
-                let values: Option<Vec<f64>> = list.iter().map(of).collect();
-                fold_values(*fold, &values?)
-            }
-            _ => return None,
-        })
-    }
-}
-
-fn fold_values(fold: Fold, values: &[f64]) -> f64 {
-    match fold {
-        Fold::Sum => values.iter().sum(),
-        Fold::Min => values.iter().copied().fold(f64::INFINITY, f64::min),
-        Fold::Max => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        let value = Evaluation::at_start(self).value(&self.objective, Item::None);
+        value.or(Some(0.0)).filter(|value| value.is_finite())
     }
 }
 

@@ -107,6 +107,13 @@ impl Problem {
         let first = &self.sections.first_dimension;
         &self.sections.dimensions[first[s] as usize..first[s + 1] as usize]
     }
+
+    /// The dimension of section `s` given under this name; `None` for derived dimensions and properties.
+    pub fn given_dimension(&self, s: u32, name: &str) -> Option<Dimension> {
+        let form = sections_form(self, s as usize)?;
+        let at = form.dimensions.iter().position(|given| *given == name)?;
+        self.dimensions(s as usize).get(at).copied()
+    }
 }
 
 /// The direction of the objective.

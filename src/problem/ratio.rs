@@ -10,6 +10,9 @@ use crate::expression::operators::{Binary, Fold, Unary};
 /// Definitions seen through one inside another.
 const DEPTH: usize = 64;
 
+/// Terms of one row at which definitions stay closed: they may share one another many times over.
+const MOST_TERMS: usize = 10_000;
+
 impl Problem {
     /// The row as a ratio; `None` where one side is empty (a sum of positive terms is never below zero).
     pub fn ratio(&self, left: &Formula, right: &Limit) -> Option<(Formula, Limit)> {
@@ -40,6 +43,7 @@ impl Problem {
         if depth == 0 {
             return sides.push(formula, factor);
         }
+        let terms = sides.terms();
         let mut go = |formula: &Formula, factor: f64| self.collect(formula, factor, depth - 1, sides);
         match formula {
             Formula::Constant(value) => sides.push(&Formula::Constant(value.abs()), factor * sign(*value)),
@@ -61,7 +65,7 @@ impl Problem {
             Formula::Binary(Binary::Divide, other, number) if number.as_constant().is_some() => {
                 go(other, factor / number.as_constant().unwrap_or(1.0));
             }
-            Formula::Definition(definition) if self.has_signs(*definition) => {
+            Formula::Definition(definition) if self.has_signs(*definition) && terms < MOST_TERMS => {
                 go(&self.definitions[*definition as usize].1, factor);
             }
             other => sides.push(other, factor),
@@ -90,6 +94,10 @@ struct Sides {
 }
 
 impl Sides {
+    fn terms(&self) -> usize {
+        self.positive.len() + self.negative.len()
+    }
+
     fn push(&mut self, formula: &Formula, factor: f64) {
         let weight = factor.abs();
         let term = match formula {

@@ -5,8 +5,10 @@
 pub mod answer;
 pub mod bounds;
 pub mod comparison;
+pub mod cross_section;
 pub mod governing;
 pub mod number;
+pub mod pictures;
 pub mod profile;
 pub mod result;
 pub mod summary;

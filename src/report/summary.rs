@@ -209,7 +209,8 @@ fn conflict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     }
     if !rows.is_empty() {
         let set = if *minimal { "These conflict, and no part of them does" } else { "These conflict" };
-        let row_names = rows.iter().map(|&i| model.row_name(i));
+        let place = |i: usize| model.row_place(i).map_or(String::new(), |place| format!(" ({place})"));
+        let row_names = rows.iter().map(|&i| model.row_name(i) + &place(i));
         let ends = bounds.iter().map(|&(j, upper)| {
             let side = if upper { "upper" } else { "lower" };
             format!("{side} bound of {}", model.variable_name(j))

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::number::significant;
+use super::pictures::canvas::{COLOURS, Canvas};
 use super::profile::{Curve, Profile};
 
 const WIDTH: f64 = 760.0;
@@ -11,25 +12,18 @@ const LEFT: f64 = 60.0;
 const RIGHT: f64 = 210.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = 50.0;
-/// Okabe and Ito's colours, which colour-blind people can tell apart.
-const COLOURS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#b8a800"];
 const DASHES: [&str; 3] = ["", "6 3", "2 3"];
 
 /// Draws the profile.
 pub fn draw(profile: &Profile) -> String {
     let plot = Plot { decades: profile.largest_ratio().log10().max(0.3) * 1.05 };
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"white\"/>\n\
-         <text x=\"{LEFT}\" y=\"24\" font-size=\"15\">Problems solved within a factor of the fewest {}</text>\n",
-        escaped(&profile.measure)
-    );
-    plot.axes(&mut svg);
+    let title = format!("Problems solved within a factor of the fewest {}", profile.measure);
+    let mut canvas = Canvas::new(WIDTH, HEIGHT, &title);
+    plot.axes(&mut canvas);
     for (index, curve) in profile.curves.iter().enumerate() {
-        plot.curve(&mut svg, index, curve);
+        plot.curve(&mut canvas, index, curve);
     }
-    svg.push_str("</svg>\n");
-    svg
+    canvas.finish()
 }
 
 struct Plot {
@@ -45,30 +39,30 @@ impl Plot {
         HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * share
     }
 
-    fn axes(&self, svg: &mut String) {
+    fn axes(&self, canvas: &mut Canvas) {
         let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for step in 0..=5 {
             let (share, y) = (f64::from(step) / 5.0, Self::y(f64::from(step) / 5.0));
-            line(svg, [LEFT, y, right, y], "#dddddd");
-            text(svg, LEFT - 8.0, y + 4.0, "end", &format!("{} %", significant(100.0 * share, 3)));
+            canvas.line([LEFT, y, right, y], "#dddddd");
+            canvas.text(LEFT - 8.0, y + 4.0, "end", &format!("{} %", significant(100.0 * share, 3)));
         }
         let mut factor: f64 = 1.0;
         while factor.log10() <= self.decades {
             for multiple in [1.0, 2.0, 5.0] {
                 if (factor * multiple).log10() <= self.decades {
                     let x = self.x(factor * multiple);
-                    line(svg, [x, TOP, x, bottom], "#dddddd");
-                    text(svg, x, bottom + 18.0, "middle", &significant(factor * multiple, 3));
+                    canvas.line([x, TOP, x, bottom], "#dddddd");
+                    canvas.text(x, bottom + 18.0, "middle", &significant(factor * multiple, 3));
                 }
             }
             factor *= 10.0;
         }
-        line(svg, [LEFT, bottom, right, bottom], "black");
-        line(svg, [LEFT, TOP, LEFT, bottom], "black");
-        text(svg, (LEFT + right) / 2.0, bottom + 38.0, "middle", "factor");
+        canvas.line([LEFT, bottom, right, bottom], "black");
+        canvas.line([LEFT, TOP, LEFT, bottom], "black");
+        canvas.text((LEFT + right) / 2.0, bottom + 38.0, "middle", "factor");
     }
 
-    fn curve(&self, svg: &mut String, index: usize, curve: &Curve) {
+    fn curve(&self, canvas: &mut Canvas, index: usize, curve: &Curve) {
         let colour = COLOURS[index % COLOURS.len()];
         let dash = DASHES[(index / COLOURS.len()) % DASHES.len()];
         let end = 10f64.powf(self.decades);
@@ -79,23 +73,11 @@ impl Plot {
         }
         let _ = write!(path, "H{:.2}", self.x(end));
         let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\"");
-        let _ = writeln!(svg, "<path d=\"{path}\" {style}/>");
+        canvas.path(&path, &style);
         let (x, y) = (WIDTH - RIGHT + 14.0, TOP + 10.0 + 18.0 * index as f64);
-        let _ = writeln!(svg, "<path d=\"M{x} {y}h24\" {style}/>");
-        text(svg, x + 32.0, y + 4.0, "start", &format!("{} ({:.0} %)", curve.solver, 100.0 * curve.share(f64::MAX)));
+        canvas.path(&format!("M{x} {y}h24"), &style);
+        canvas.text(x + 32.0, y + 4.0, "start", &format!("{} ({:.0} %)", curve.solver, 100.0 * curve.share(f64::MAX)));
     }
-}
-
-fn line(svg: &mut String, [x1, y1, x2, y2]: [f64; 4], colour: &str) {
-    let _ = writeln!(svg, "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\"/>");
-}
-
-fn text(svg: &mut String, x: f64, y: f64, anchor: &str, content: &str) {
-    let _ = writeln!(svg, "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{}</text>", escaped(content));
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

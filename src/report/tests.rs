@@ -1,26 +1,15 @@
 //! What the reports of one made-up run look like, and that they hold what they promise.
 
-use num_dual::DualNum;
-
 use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
 use crate::crosscheck::{Agreement, Answer, Conflict, Status};
-use crate::model::handmade::{Formulas, Handmade};
+use crate::model::sample::Sample;
 
-struct Sum;
-
-impl Formulas for Sum {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        x[0] + x[1] * 2.0
-    }
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        vec![x[0] * x[1]]
-    }
-}
-
-fn model() -> Handmade<Sum> {
-    Handmade::new(Sum, &[(0.5, 1.0, f64::INFINITY), (0.1, 0.2, 0.7)], &[(0.35, f64::INFINITY)])
+fn model() -> Sample {
+    Sample::new(&[1.0, 0.2], |x| x[0] + x[1] * 2.0)
+        .bounds(&[0.5, 0.1], &[f64::INFINITY, 0.7])
+        .row(0.35, f64::INFINITY, |x| x[0] * x[1])
 }
 
 fn about(sense: Sense) -> About {

@@ -216,9 +216,9 @@ mod tests {
                 let (data, n) = ([1.0], kernel.inputs());
                 let mut gradient = vec![0.0; n];
                 kernel.gradient(x, &data, &mut Workspace::default(), &mut gradient);
-                for at in 0..n {
+                for (at, &slope) in gradient.iter().enumerate() {
                     let expected = difference(x, at, |x| kernel.value(x, &data, &mut Workspace::default()));
-                    assert!((gradient[at] - expected).abs() < 1e-7 * (1.0 + expected.abs()), "{at}: {} {expected}", gradient[at]);
+                    assert!((slope - expected).abs() < 1e-7 * (1.0 + expected.abs()), "{at}: {slope} {expected}");
                 }
                 let mut values = vec![0.0; kernel.hessian_pattern().len()];
                 kernel.hessian(x, &data, &mut Workspace::default(), &mut values);

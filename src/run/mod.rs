@@ -6,6 +6,8 @@ pub mod choice;
 pub mod compare;
 pub mod folder;
 pub mod network;
+mod pictures;
+pub mod section;
 mod sizing;
 pub mod solve;
 pub mod start;

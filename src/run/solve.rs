@@ -7,12 +7,14 @@ use std::sync::atomic::AtomicBool;
 
 use super::choice::{Choice, refuse_if_none_accepts};
 use super::folder::{Folder, FolderError, default_folder};
+use super::pictures;
 use super::start::in_domain;
 use super::{RunError, Subject, Watcher};
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
 use crate::log::IterationLog;
 use crate::report::answer::EarlierAnswer;
+use crate::report::pictures::Trace;
 use crate::report::{About, Findings, Volumes, result, tables, whole_file};
 
 /// What is asked of a run, besides the problem.
@@ -25,6 +27,8 @@ pub struct Request<'a> {
     pub start: Option<&'a Path>,
     /// Starting points; 0 or 1: one.
     pub starts: usize,
+    /// Leave pictures too.
+    pub plot: bool,
     /// Set by Ctrl-C.
     pub interrupt: Option<&'a AtomicBool>,
 }
@@ -83,11 +87,16 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         interrupt: request.interrupt,
     };
-    let outcome = observed(&task, &request.choices, &logs, watcher, subject.sign());
+    let traces: Vec<_> = request.choices.iter().map(|choice| RefCell::new(Trace::new(choice.backend.name()))).collect();
+    let outcome = observed(&task, &request.choices, &logs, &traces, watcher, subject.sign());
     about.warnings.extend(logs.iter().filter_map(|log| log.borrow().failure()));
     let volumes = subject.volumes(&outcome.x);
     let solved = Solved { about, outcome, volumes, folder };
     leave_files(&solved.findings(subject), &solved.folder)?;
+    if request.plot {
+        let traces: Vec<Trace> = traces.into_iter().map(RefCell::into_inner).collect();
+        pictures::leave(&traces, &start, subject, &solved)?;
+    }
     Ok(solved)
 }
 
@@ -121,6 +130,7 @@ fn observed(
     task: &Task<'_>,
     choices: &[Choice],
     logs: &[RefCell<IterationLog>],
+    traces: &[RefCell<Trace>],
     watcher: &mut dyn Watcher,
     sign: f64,
 ) -> Outcome {
@@ -128,7 +138,7 @@ fn observed(
     let watcher = RefCell::new(watcher);
     let mut begun = vec![false; choices.len()];
     let mut observe = |at: usize, algorithm: &str| -> Box<dyn FnMut(&Iteration<'_>) + '_> {
-        let log = logs.get(at);
+        let (log, trace) = (logs.get(at), traces.get(at));
         if let (Some(log), Some(begun @ false)) = (log, begun.get_mut(at)) {
             log.borrow_mut().begin();
             *begun = true;
@@ -139,6 +149,9 @@ fn observed(
             let in_users_sense = Iteration { objective: sign * iteration.objective, ..*iteration };
             if let Some(log) = log {
                 log.borrow_mut().add(&in_users_sense);
+            }
+            if let Some(trace) = trace {
+                trace.borrow_mut().add([in_users_sense.objective, iteration.feasibility, iteration.optimality]);
             }
             watcher.borrow_mut().iteration(&in_users_sense);
         })

@@ -12,6 +12,11 @@ use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
 use crate::report::result::Mistake;
 use crate::report::{self, About, Volumes};
 
+/// From this size on a model is looked at for components,
+const FEWEST_VARIABLES: usize = 200;
+/// of no more variables than this.
+const SMALL_COMPONENT: usize = 64;
+
 /// A problem ready to be solved.
 pub struct Subject {
     /// Its origin and words.
@@ -69,6 +74,7 @@ impl Subject {
         let model = Arc::new(assemble(&problem).map_err(too_dense)?);
         let Classification { class, logarithmic, not_geometric, not_convex } = classify(&model).map_err(too_dense)?;
         let substitution = match logarithmic {
+            _ if is_dust(&model) => None,
             Some(logarithmic) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             None => differences(&problem, &model),
         };
@@ -119,6 +125,12 @@ impl Subject {
         let [total, frustum, prismatoid] = totals;
         Some(Volumes { total, frustum, prismatoid })
     }
+}
+
+/// Whether the model falls into so many small components that it is solved piece by piece, each in variables that suit it.
+fn is_dust(model: &RibModel) -> bool {
+    let large = model.meta().variables() >= FEWEST_VARIABLES;
+    large && model.components().is_some_and(|components| components.partition().largest() <= SMALL_COMPONENT)
 }
 
 /// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.

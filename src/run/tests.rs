@@ -66,7 +66,7 @@ fn subject() -> Subject {
 
 fn request<'a>(subject: &Subject, out: &'a Path) -> Request<'a> {
     let choices = choose(&[], None, &subject.settings).unwrap();
-    Request { choices, out: Some(out), start: None, starts: 1, interrupt: None }
+    Request { choices, out: Some(out), start: None, starts: 1, plot: false, interrupt: None }
 }
 
 #[test]

@@ -29,7 +29,7 @@ impl Outline {
                 ring.iter().map(|vertex| [0, 1].map(|d| coordinate(graph, vertex, middle, &each, d))).collect();
             rings.push(vertices);
         }
-        let sides = line.sides_along(stepped).iter().map(|(length, terms)| linear(graph, *length, terms, &each)).collect();
+        let sides = line.sides_along(stepped).iter().map(|side| linear(graph, side.length, &side.terms, &each)).collect();
         Some(Outline { rings, sides })
     }
 

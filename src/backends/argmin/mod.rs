@@ -7,7 +7,6 @@ mod interior_point;
 mod opinions;
 mod state;
 #[cfg(test)]
-pub(crate) mod test_models;
 #[cfg(test)]
 mod tests;
 

@@ -5,57 +5,33 @@ use num_dual::DualNum;
 
 use super::*;
 use crate::backends::{Iteration, StopTest};
-use crate::model::handmade::{Formulas, Handmade};
+use crate::model::sample::Sample;
 use crate::model::{Budget, EvaluationError, Meta};
 
 const OPEN: f64 = f64::INFINITY;
 
 /// Hock and Schittkowski's problem 71: f* = 17.0140173.
-struct Hs71;
-
-impl Formulas for Hs71 {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2]
-    }
-
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        vec![x[0] * x[1] * x[2] * x[3], x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]]
-    }
+fn hs71() -> Sample {
+    Sample::new(&[1.0, 5.0, 5.0, 1.0], |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
+        .bounds(&[1.0; 4], &[5.0; 4])
+        .row(25.0, OPEN, |x| x[0] * x[1] * x[2] * x[3])
+        .row(40.0, 40.0, |x| x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3])
 }
 
-fn hs71() -> Handmade<Hs71> {
-    let variables = [1.0, 5.0, 5.0, 1.0].map(|start| (1.0, start, 5.0));
-    Handmade::new(Hs71, &variables, &[(25.0, OPEN), (40.0, 40.0)])
+fn rosenbrock() -> Sample {
+    rosenbrock_within([-2.0; 2], [2.0; 2])
 }
 
-struct Rosenbrock;
-
-impl Formulas for Rosenbrock {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (x[1] - x[0] * x[0]).powi(2) * 100.0 + (-x[0] + 1.0).powi(2)
-    }
-}
-
-fn rosenbrock() -> Handmade<Rosenbrock> {
-    Handmade::new(Rosenbrock, &[(-2.0, -1.2, 2.0), (-2.0, 1.0, 2.0)], &[])
+fn rosenbrock_within(lower: [f64; 2], upper: [f64; 2]) -> Sample {
+    let start = [(-1.2_f64).clamp(lower[0], upper[0]), 1.0];
+    Sample::new(&start, |x| (x[1] - x[0] * x[0]).powi(2) * 100.0 + (-x[0] + 1.0).powi(2)).bounds(&lower, &upper)
 }
 
 /// Svanberg's cantilever of five segments; in closed form f* = 0.0624·(Σ w_i^¼)^(4/3).
-struct Cantilever;
-
-impl Formulas for Cantilever {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (x[0] + x[1] + x[2] + x[3] + x[4]) * 0.0624
-    }
-
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        let weights = [61.0, 37.0, 19.0, 7.0, 1.0];
-        vec![x.iter().zip(weights).fold(D::from(0.0), |sum, (x, weight)| sum + x.powi(-3) * weight)]
-    }
-}
-
-fn cantilever() -> Handmade<Cantilever> {
-    Handmade::new(Cantilever, &[(0.1, 5.0, 10.0); 5], &[(-OPEN, 1.0)])
+fn cantilever() -> Sample {
+    Sample::new(&[5.0; 5], |x| (x[0] + x[1] + x[2] + x[3] + x[4]) * 0.0624)
+        .bounds(&[0.1; 5], &[10.0; 5])
+        .row(-OPEN, 1.0, |x| x.iter().zip([61.0, 37.0, 19.0, 7.0, 1.0]).map(|(x, weight)| x.powi(-3) * weight).sum())
 }
 
 struct Options<'a> {
@@ -147,16 +123,16 @@ fn dense_algorithms_refuse_what_they_cannot_hold() {
 
 #[test]
 fn global_algorithms_need_finite_bounds() {
-    let open = Handmade::new(Rosenbrock, &[(-OPEN, -1.2, OPEN), (-OPEN, 1.0, OPEN)], &[]);
+    let open = rosenbrock_within([-OPEN; 2], [OPEN; 2]);
     assert!(Nlopt.refusal("isres", &open).unwrap().contains("2 variables are open on one side"));
     assert_optimum(&open, &solve_with(&open, "auto"), 0.0, 1e-10);
 }
 
 #[test]
 fn fixed_variables_stay_where_they_are() {
-    let fixed = Handmade::new(Rosenbrock, &[(0.5, 0.5, 0.5), (-2.0, 1.0, 2.0)], &[]);
+    let fixed = rosenbrock_within([0.5, -2.0], [0.5, 2.0]);
     assert_optimum(&fixed, &solve_with(&fixed, "auto"), 0.25, 1e-12);
-    let all = Handmade::new(Rosenbrock, &[(0.5, 0.5, 0.5), (1.0, 1.0, 1.0)], &[]);
+    let all = rosenbrock_within([0.5, 1.0], [0.5, 1.0]);
     let solution = solve_with(&all, "slsqp");
     assert_eq!((solution.termination, solution.x), (Termination::Converged, vec![0.5, 1.0]));
 }
@@ -195,40 +171,25 @@ fn a_run_can_be_repeated() {
 }
 
 /// −log x + x on x ≥ 0: full steps leave the domain, the minimum 1 is at 1.
-struct Barrier;
-
-impl Formulas for Barrier {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        -x[0].ln() + x[0]
-    }
-}
-
 #[test]
 fn auto_finds_a_way_round_values_that_are_no_number() {
     for start in [0.0, 1e-8, 40.0] {
-        let barrier = Handmade::new(Barrier, &[(0.0, start, 50.0)], &[]);
+        let barrier = Sample::new(&[start], |x| -x[0].ln() + x[0]).bounds(&[0.0], &[50.0]);
         let solution = solve_with(&barrier, "auto");
         assert_optimum(&barrier, &solution, 1.0, 1e-8);
         assert_eq!(solution.invalid, None);
     }
 }
 
-struct Nowhere;
-
-impl Formulas for Nowhere {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (-x[0] * x[0] - 1.0).sqrt()
-    }
-}
-
 #[test]
 fn a_model_without_values_is_an_answer_not_a_crash() {
-    let solution = solve_with(&Handmade::new(Nowhere, &[(-1.0, 0.0, 1.0)], &[]), "auto");
+    let nowhere = Sample::new(&[0.0], |x| (-x[0] * x[0] - 1.0).sqrt()).bounds(&[-1.0], &[1.0]);
+    let solution = solve_with(&nowhere, "auto");
     assert_eq!(solution.termination, Termination::Failed);
     assert!(solution.invalid.unwrap().contains("objective"));
 }
 
-struct Panicking(Handmade<Rosenbrock>);
+struct Panicking(Sample);
 
 impl Model for Panicking {
     fn meta(&self) -> &Meta {

@@ -49,6 +49,8 @@ pub(super) struct Watch<'w, 'j> {
     /// Where an attempt that has proved a point ends.
     glow_ends: u64,
     is_unbounded: bool,
+    /// The objective's scale at the start: later attempts begin far out, where it says nothing.
+    unit: Option<f64>,
 }
 
 impl<'w, 'j> Watch<'w, 'j> {
@@ -65,6 +67,7 @@ impl<'w, 'j> Watch<'w, 'j> {
             next_test: 0,
             glow_ends: u64::MAX,
             is_unbounded: false,
+            unit: None,
         }
     }
 
@@ -120,12 +123,17 @@ impl<'w, 'j> Watch<'w, 'j> {
             let settled = self.best.as_ref().is_some_and(|best| is_small_change(best, &candidate));
             self.report(&candidate, evaluations);
             self.best = Some(candidate.clone());
-            self.is_unbounded = candidate.violation <= self.accepted && candidate.scaled_objective < UNBOUNDED;
+            self.is_unbounded = candidate.violation <= self.accepted && candidate.objective < UNBOUNDED * self.unit(&candidate);
             if evaluations >= self.next_test && settled {
                 self.test(candidate, evaluations);
             }
         }
         self.is_unbounded || evaluations >= self.glow_ends || self.iterations >= self.job.max_iterations
+    }
+
+    fn unit(&mut self, candidate: &Candidate) -> f64 {
+        let ratio = (candidate.objective / candidate.scaled_objective).abs();
+        *self.unit.get_or_insert(if ratio > 0.0 && ratio.is_finite() { ratio } else { 1.0 })
     }
 
     fn report(&mut self, candidate: &Candidate, evaluations: u64) {

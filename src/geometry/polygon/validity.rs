@@ -117,8 +117,9 @@ fn flat(points: &[[f64; 2]]) -> bool {
     let origin = points[0];
     let reach = |d: usize| points.iter().map(|point| (point[d] - origin[d]).abs()).fold(0.0, f64::max);
     let bound = points.len() as f64 * f64::EPSILON * reach(0) * reach(1);
-    // `>` is false for NaN too, where the coordinates overflow.
-    !(ring_moments(points, origin).area.abs() > bound)
+    let area = ring_moments(points, origin).area.abs();
+    // No number where the coordinates overflow.
+    area <= bound || area.is_nan()
 }
 
 /// Is the point inside the ring (not on it)? By the winding of the edges over it.

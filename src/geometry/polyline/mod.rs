@@ -88,6 +88,17 @@ impl OffsetVertex {
     }
 }
 
+/// One side of the outline along one segment: its length is `length` + Σ factor·δ(segment).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Side {
+    /// The segment, counted from 0.
+    pub segment: usize,
+    /// Its length on the centre line.
+    pub length: f64,
+    /// Segments and factors: what the corners add.
+    pub terms: Vec<(usize, f64)>,
+}
+
 /// The two sides of the strip, left and right in the direction of the points, corner by corner (one vertex, or two where it is cut).
 struct Sides {
     left: Vec<Vec<OffsetVertex>>,
@@ -124,7 +135,7 @@ impl Centreline {
     /// # Errors
     /// A limit below 1.
     pub fn with_miter_limit(mut self, limit: f64) -> Result<Self, PolylineError> {
-        if !(limit >= 1.0) {
+        if limit < 1.0 || limit.is_nan() {
             return Err(PolylineError::MiterLimit { value: limit });
         }
         self.miter_limit = limit;
@@ -244,21 +255,21 @@ impl Centreline {
         if anticlockwise { vec![right, backwards(left)] } else { vec![backwards(left), right] }
     }
 
-    /// How long the two sides of the outline are along each segment, linear in the thicknesses: a length and terms (segment, factor).
+    /// How long the two sides of the outline are along each segment, linear in the thicknesses.
     /// Where one is not positive the outline folds over.
-    pub fn sides_along(&self, stepped: bool) -> Vec<(f64, Vec<(usize, f64)>)> {
-        self.lengths(&self.sides(|_, _| stepped)).into_iter().map(|(_, length, terms)| (length, terms)).collect()
+    pub fn sides_along(&self, stepped: bool) -> Vec<Side> {
+        self.lengths(&self.sides(|_, _| stepped))
     }
 
-    /// Segment, its length, and what its corners add on one side.
-    fn lengths(&self, sides: &Sides) -> Vec<(usize, f64, Vec<(usize, f64)>)> {
+    fn lengths(&self, sides: &Sides) -> Vec<Side> {
         let mut found = Vec::new();
         for segment in 0..self.segments() {
             let [x, y] = unit(self.ends(segment));
             let along = |vertex: &OffsetVertex, sign: f64| vertex.terms.map(|(by, v)| (by, sign * (v[0] * x + v[1] * y)));
             for side in [&sides.left, &sides.right] {
                 let (Some(from), Some(to)) = (side[segment].last(), side[(segment + 1) % side.len()].first()) else { continue };
-                found.push((segment, self.segment_length(segment), [along(from, -1.0), along(to, 1.0)].concat()));
+                let terms = [along(from, -1.0), along(to, 1.0)].concat();
+                found.push(Side { segment, length: self.segment_length(segment), terms });
             }
         }
         found
@@ -266,9 +277,9 @@ impl Centreline {
 
     /// Both sides of every segment must still run its way.
     fn fold_over(&self, sides: &Sides, each: &[f64]) -> Result<(), PolylineError> {
-        let lost = |terms: &[(usize, f64)]| terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
-        match self.lengths(sides).iter().find(|(_, length, terms)| length + lost(terms) <= 0.0) {
-            Some((segment, ..)) => Err(PolylineError::FoldOver { segment: segment + 1 }),
+        let left = |side: &Side| side.length + side.terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
+        match self.lengths(sides).iter().find(|side| left(side) <= 0.0) {
+            Some(side) => Err(PolylineError::FoldOver { segment: side.segment + 1 }),
             None => Ok(()),
         }
     }

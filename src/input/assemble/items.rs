@@ -185,9 +185,12 @@ impl Assembly<'_> {
     fn misfit(&mut self, name: &Name, kind: &'static dyn Kind, given: &[Given]) {
         let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
         let takes = |form: &Form| given.iter().all(|one| form.dimensions.contains(&one.name));
-        let sets: Vec<String> = kind.forms().iter().take(MOST_SETS).map(|form| form.dimensions.join(", ")).collect();
-        let more = if kind.forms().len() > MOST_SETS { "; and so on" } else { "" };
-        let help = format!("give {}{more}", sets.join("; or "));
+        let numbered = |form: &&Form| form.dimensions.iter().any(|name| name.ends_with(']'));
+        let sets: Vec<String> =
+            kind.forms().iter().filter(|form| !numbered(form)).map(|form| form.dimensions.join(", ")).collect();
+        let list = kind.forms().iter().find(numbered).and_then(|form| form.dimensions.first()?.split('[').next());
+        let list = list.map(|name| format!("; or {name} = [ … ], one per segment")).unwrap_or_default();
+        let help = format!("give {}{list}", sets.join("; or "));
         let (place, message) = match kind.forms().iter().find(|form| takes(form)) {
             Some(form) => {
                 let lacking: Vec<String> = form.dimensions.iter().filter(|d| !has(d)).map(|d| format!("`{d}`")).collect();
@@ -316,9 +319,6 @@ impl Assembly<'_> {
         own.or_else(|| self.section_places.get(section as usize)).copied().unwrap_or(Place::Whole)
     }
 }
-
-/// Sets of dimensions named in help.
-const MOST_SETS: usize = 6;
 
 /// Names for help; of a numbered list its first.
 fn shown(names: &[&str]) -> String {

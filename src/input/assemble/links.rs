@@ -225,7 +225,7 @@ impl Assembly<'_> {
             if value.is_nan() {
                 self.findings.mistake(link.place, "this has no value", "it leaves the domain, as 0/0 or log(-1) do");
             }
-            self.positive("given here", value, link.place);
+            self.positive(self.dimension_name(link).unwrap_or_default(), value, link.place);
             return Dimension::Constant(value);
         }
         match &formula {

@@ -17,12 +17,13 @@ pub(super) struct Points {
 impl Assembly<'_> {
     /// The points of the problem file.
     pub(super) fn points(&mut self, entry: &PointsEntry) -> Points {
-        let constants = entry.list.iter().map(|pair| {
+        let constants = entry.list.iter().flatten().map(|pair| {
             let [x, y] = pair.each_ref().map(|scalar| self.constant(scalar));
             Some([x?, y?])
         });
         let constants: Vec<Option<[f64; 2]>> = constants.collect();
-        Points { list: constants.into_iter().collect::<Option<Vec<_>>>().map(Arc::new), place: entry.place }
+        let list = constants.into_iter().collect::<Option<Vec<_>>>().filter(|_| entry.list.is_some());
+        Points { list: list.map(Arc::new), place: entry.place }
     }
 
     /// The points in a table's cell; equal texts share one list.

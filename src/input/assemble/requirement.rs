@@ -73,7 +73,7 @@ impl Assembly<'_> {
     /// A row without variables: idle where it holds everywhere, a mistake where it does not.
     fn decided(&mut self, written: &Written, requirement: &Requirement, formulas: &[Formula], scope: &Scope, name: &str) {
         let holds = |item: Item, group: Option<&[u32]>| {
-            let evaluation = Evaluation { problem: &self.problem, at_start: false, group };
+            let evaluation = Evaluation::of_group(&self.problem, group);
             let values: Option<Vec<f64>> = formulas.iter().map(|formula| evaluation.value(formula, item)).collect();
             match (requirement, values.as_deref()) {
                 (Requirement::Two { comparison, .. }, Some([left, right])) => compare(*comparison, *left, *right),
@@ -173,7 +173,7 @@ fn rows(scope: &Scope) -> Box<dyn Iterator<Item = (Item, Option<&[u32]>)> + '_> 
 
 /// True where the formula has a value in every row whatever the variables are.
 fn constant(problem: &Problem, formula: &Formula, scope: &Scope) -> bool {
-    rows(scope).all(|(item, group)| Evaluation { problem, at_start: false, group }.value(formula, item).is_some())
+    rows(scope).all(|(item, group)| Evaluation::of_group(problem, group).value(formula, item).is_some())
 }
 
 fn compare(comparison: Comparison, left: f64, right: f64) -> bool {

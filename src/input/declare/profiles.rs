@@ -16,7 +16,8 @@ pub(in crate::input) const DEFAULT_DEGREE: u32 = 3;
 pub(super) fn profile(field: &Field, variable: usize, reader: &mut Reader) -> (Option<ProfileEntry>, VariableEntry) {
     let Some(mut fields) = field.table(reader) else { return (None, open_variable(field)) };
     let what = format!("profile `{}`", field.key);
-    let fixed = kind(&mut fields, reader);
+    let kind = kind(&mut fields, reader);
+    let fixed = kind.flatten();
     let degree = fields.take("degree");
     let knots = fields.take("knots");
     if fixed.is_some() {
@@ -34,14 +35,19 @@ pub(super) fn profile(field: &Field, variable: usize, reader: &mut Reader) -> (O
         Some(items) => Some((items.iter().filter_map(|item| item.scalar(reader)).collect(), field.place)),
         None => field.expected("an array of knots", reader),
     });
-    let controls = controls(field, &mut fields, fixed.map(|(_, size)| size), &what, reader);
+    let controls = controls(field, &mut fields, kind.map(|fixed| fixed.map(|(_, size)| size)), &what, reader);
     fields.finish(reader);
-    (Some(ProfileEntry { name: name(field), variable, degree, knots: knots.filter(|_| fixed.is_none()) }), controls)
+    // After a mistake a constant stands in, which fits any number of control values.
+    let known = kind.is_some() && controls.size.is_some();
+    let degree = if known { degree } else { Degree::Fixed(0) };
+    let knots = knots.filter(|_| known && fixed.is_none());
+    (Some(ProfileEntry { name: name(field), variable, degree, knots }), controls)
 }
 
-/// Degree and size of a kind that fixes them.
-fn kind(fields: &mut Fields, reader: &mut Reader) -> Option<(u32, u32)> {
-    let written = fields.take("kind")?.text(reader)?;
+/// Degree and size, where the kind fixes them; `None` after a mistake.
+fn kind(fields: &mut Fields, reader: &mut Reader) -> Option<Option<(u32, u32)>> {
+    let Some(field) = fields.take("kind") else { return Some(None) };
+    let written = field.text(reader)?;
     let known = KINDS.iter().find(|(name, _)| *name == written.text);
     if known.is_none() {
         let names = || KINDS.iter().map(|(name, _)| *name);
@@ -49,18 +55,19 @@ fn kind(fields: &mut Fields, reader: &mut Reader) -> Option<(u32, u32)> {
         let help = help.unwrap_or_else(|| format!("known: {}", names().collect::<Vec<_>>().join(", ")));
         reader.findings.mistake(written.place, format!("unknown kind of profile `{}`", written.text), help);
     }
-    known.and_then(|(_, fixed)| *fixed)
+    known.map(|(_, fixed)| *fixed)
 }
 
-/// `control = { size, lower, upper, start }`
-fn controls(field: &Field, fields: &mut Fields, size: Option<u32>, what: &str, reader: &mut Reader) -> VariableEntry {
+/// `control = { size, lower, upper, start }`; `kind` holds the size its kind fixes. Without a size after a mistake.
+fn controls(field: &Field, fields: &mut Fields, kind: Option<Option<u32>>, what: &str, reader: &mut Reader) -> VariableEntry {
     let given = fields.require("control", what, reader);
     let Some((control, mut table)) = given.and_then(|control| Some((control.clone(), control.table(reader)?))) else {
-        return VariableEntry { size: Some(whole(size.unwrap_or(1), field)), ..open_variable(field) };
+        return open_variable(field);
     };
-    let given = match size {
-        Some(_) => table.take("size"),
-        None => table.require("size", &format!("{what}: control"), reader),
+    let size = kind.flatten();
+    let given = match kind {
+        Some(None) => table.require("size", &format!("{what}: control"), reader),
+        _ => table.take("size"),
     };
     let given = given.and_then(|field| field.scalar(reader));
     if let (Some(size), Some(Scalar::Number(value, place))) = (size, &given)
@@ -69,12 +76,8 @@ fn controls(field: &Field, fields: &mut Fields, size: Option<u32>, what: &str, r
         let message = format!("{what} has {size} control values by its kind, not {value}");
         reader.findings.mistake(*place, message, "leave `size` out, or use kind = \"b-spline\"");
     }
-    let size = size.map(|size| whole(size, &control)).or(given).unwrap_or_else(|| whole(1, &control));
+    let size = size.map(|size| Scalar::Number(size.into(), control.place)).or(given);
     let range: Range<Numbers> = range(&mut table, numbers, reader);
     table.finish(reader);
-    VariableEntry { name: name(field), size: Some(size), range }
-}
-
-fn whole(value: u32, at: &Field) -> Scalar {
-    Scalar::Number(value.into(), at.place)
+    VariableEntry { name: name(field), size, range }
 }

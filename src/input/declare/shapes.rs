@@ -14,13 +14,13 @@ pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry
     let what = format!("section `{}`", field.key);
     let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
     let data = data(&mut fields, reader);
-    let points = fields.take("points").and_then(|field| points(&field, reader));
+    let points = fields.take("points").map(|field| PointsEntry { list: points(&field, reader), place: field.place });
     let dimensions = fields.rest().iter().flat_map(|field| dimensions(field, reader)).collect();
     Some(SectionEntry { name: name(field), kind, points, dimensions, data })
 }
 
 /// `[[x, y], …]`; `None` after a mistake.
-fn points(field: &Field, reader: &mut Reader) -> Option<PointsEntry> {
+fn points(field: &Field, reader: &mut Reader) -> Option<Vec<[Scalar; 2]>> {
     const SHAPE: &str = "pairs of numbers: [[0, 0], [0.4, 0], [0.4, 0.3]]";
     let Some(items) = field.items() else { return field.expected(SHAPE, reader) };
     let count = items.len();
@@ -39,7 +39,7 @@ fn points(field: &Field, reader: &mut Reader) -> Option<PointsEntry> {
         })
         .collect();
     // Further mistakes of points that are only partly known would be none of the user's.
-    (list.len() == count).then_some(PointsEntry { list, place: field.place })
+    (list.len() == count).then_some(list)
 }
 
 /// One dimension, or one per item of an array: `thickness = [0.01, 0.02]` gives `thickness[1]` and `thickness[2]`.

@@ -80,10 +80,8 @@ impl Iteration {
         let limit = 200 * (self.roots.len() + 1);
         let mut settled = vec![false; self.roots.len()];
         for _ in 0..limit {
-            for k in 0..self.roots.len() {
-                if !settled[k] {
-                    settled[k] = self.improve(k);
-                }
+            for (k, done) in settled.iter_mut().enumerate().filter(|(_, done)| !**done) {
+                *done = self.improve(k);
             }
             if settled.iter().all(|done| *done) {
                 return Ok(self.roots);

@@ -25,6 +25,7 @@ fn from_mesh_to_problem_to_solids() {
             rings: [ring(0.2), ring(0.3)],
             tags: vec![0.1],
             utilisation: Some((k % 11) as f64 / 10.0),
+            model_volume: None,
         });
         let sized: Vec<SizedRib> = sized.collect();
         for out in ["obj", "stl", "vtu"] {

@@ -10,7 +10,7 @@ fn solid(rings: [Vec<Ring>; 2], length: f64) -> PolygonMesh {
     let ends = [Vector::zeros(), Vector::z() * length];
     let frame = Frame { x: Vector::z(), y: Vector::x(), z: Vector::y() };
     let geometry = RibGeometry { name: "a".into(), line: "L1".into(), ends, frame, joints: [0, 1] };
-    loft(&SizedRib { geometry, rings, tags: Vec::new(), utilisation: None }).unwrap()
+    loft(&SizedRib { geometry, rings, tags: Vec::new(), utilisation: None, model_volume: None }).unwrap()
 }
 
 fn at(z: f64) -> Plane {

@@ -55,6 +55,13 @@ struct Judge<'a> {
     facts: &'a Facts,
 }
 
+/// One constraint as a ratio against a limit.
+struct GeometricRow {
+    ratio: Formula,
+    limit: Limit,
+    monomial: bool,
+}
+
 /// A geometric program's rows as ratios.
 struct Geometric {
     rows: Vec<(Formula, Limit)>,
@@ -126,8 +133,8 @@ impl Judge<'_> {
         let mut geometric = Geometric { rows: Vec::new(), monomial: Vec::new(), direct };
         for constraint in &self.problem.constraints {
             match self.geometric_row(constraint)? {
-                Ok((row, monomial)) => {
-                    geometric.rows.push(row);
+                Ok(GeometricRow { ratio, limit, monomial }) => {
+                    geometric.rows.push((ratio, limit));
                     geometric.monomial.extend(std::iter::repeat_n(monomial, constraint.scope.rows()));
                 }
                 Err(reason) => return Ok(Err(reason)),
@@ -136,7 +143,7 @@ impl Judge<'_> {
         Ok(Ok(geometric))
     }
 
-    fn geometric_row(&self, constraint: &Constraint) -> Result<Result<((Formula, Limit), bool), String>, AssemblyError> {
+    fn geometric_row(&self, constraint: &Constraint) -> Result<Result<GeometricRow, String>, AssemblyError> {
         let name = format!("constraint {}", constraint.name);
         let Some((ratio, limit)) = self.problem.ratio(&constraint.left, &constraint.right) else {
             return Ok(Err(format!("{name}: it holds a sum of positive terms below zero")));
@@ -151,7 +158,7 @@ impl Judge<'_> {
             return Ok(Err(format!("{name}: a row with two limits must be a monomial")));
         }
         let monomial = bend.log_curvature == crate::expression::structure::Curvature::Affine;
-        Ok(Ok(((ratio, limit), monomial)))
+        Ok(Ok(GeometricRow { ratio, limit, monomial }))
     }
 }
 

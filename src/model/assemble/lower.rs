@@ -92,6 +92,10 @@ pub(super) struct Lowering<'a> {
     sections: HashMap<u32, Rc<[NodeId]>>,
     own_numbers: HashMap<(Item, OwnNumber), NodeId>,
     definitions: HashMap<u32, NodeId>,
+    /// Linked dimensions, by section and formula.
+    links: HashMap<(u32, u32), NodeId>,
+    /// Slots for numbers are given out: further numbers belong to other items and are literals.
+    closed: bool,
 }
 
 /// A number of the item itself.
@@ -130,6 +134,8 @@ impl<'a> Lowering<'a> {
             sections: HashMap::new(),
             own_numbers: HashMap::new(),
             definitions: HashMap::new(),
+            links: HashMap::new(),
+            closed: false,
         }
     }
 
@@ -153,7 +159,15 @@ impl<'a> Lowering<'a> {
         node
     }
 
+    /// Ends the giving out of slots for numbers.
+    pub fn close(&mut self) {
+        self.closed = true;
+    }
+
     fn number(&mut self, number: f64) -> NodeId {
+        if self.closed {
+            return self.graph.constant(number);
+        }
         self.numbers.push(number);
         self.graph.data(self.numbers.len() as u32 - 1)
     }
@@ -189,12 +203,18 @@ impl<'a> Lowering<'a> {
         match dimension {
             Dimension::Constant(value) => self.graph.constant(value),
             Dimension::Variable(variable) => self.variable(variable),
-            Dimension::Formula(formula) => {
-                let problem = self.problem;
-                let context = Context { item: Item::Section(section), group: &[] };
-                self.formula(&problem.dimension_formulas[formula as usize], context)
-            }
+            Dimension::Formula(formula) => self.link(section, formula),
         }
+    }
+
+    fn link(&mut self, section: u32, formula: u32) -> NodeId {
+        if let Some(&node) = self.links.get(&(section, formula)) {
+            return node;
+        }
+        let (problem, context) = (self.problem, Context::GLOBAL.of(Item::Section(section)));
+        let node = self.formula(&problem.dimension_formulas[formula as usize], context);
+        self.links.insert((section, formula), node);
+        node
     }
 
     /// The graph of a formula.
@@ -222,10 +242,14 @@ impl<'a> Lowering<'a> {
                     .collect();
                 self.fold(*fold, &nodes)
             }
-            Formula::SectionProperty(section, property) => {
-                let dimensions = self.named_section(*section);
-                self.property(*section, &dimensions, property)
-            }
+            Formula::SectionProperty(section, property) => match self.problem.given_dimension(*section, &property.0) {
+                // Alone: another dimension of the section may be linked to this one.
+                Some(dimension) => self.dimension(*section, dimension),
+                None => {
+                    let dimensions = self.named_section(*section);
+                    self.property(*section, &dimensions, property)
+                }
+            },
             Formula::Profile(profile, at) => self.profile(*profile, at, context),
             Formula::RibVolume(rib) => self.rib_volume(*rib, law_of(self.problem, *rib, Total::Own)),
             Formula::Volume(total) => self.volume(*total),
@@ -269,10 +293,7 @@ impl<'a> Lowering<'a> {
     fn own(&mut self, formula: &Formula, context: Context) -> NodeId {
         let problem = self.problem;
         match (formula, context.item) {
-            (Formula::OwnProperty(property), Item::Section(section)) => {
-                let dimensions = self.own_section(section);
-                self.property(section, &dimensions, property)
-            }
+            (Formula::OwnProperty(property), Item::Section(section)) => self.own_property(section, property),
             (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
             (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),
             (Formula::EndData(end, column), item) => self.own_number(item, OwnNumber::EndData(*end, *column)),
@@ -284,6 +305,18 @@ impl<'a> Lowering<'a> {
             }
             // The reader resolves own names only inside their scope; anything else has no value.
             _ => self.graph.constant(f64::NAN),
+        }
+    }
+
+    /// A property of the item's section; a given dimension alone where the others are not known yet, for they may be linked to it.
+    fn own_property(&mut self, section: u32, property: &Property) -> NodeId {
+        let known = self.own_sections.contains_key(&section);
+        match self.problem.given_dimension(section, &property.0) {
+            Some(dimension) if !known => self.dimension(section, dimension),
+            _ => {
+                let dimensions = self.own_section(section);
+                self.property(section, &dimensions, property)
+            }
         }
     }
 

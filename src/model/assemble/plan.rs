@@ -18,8 +18,16 @@ pub(super) struct Plan {
     globals: Vec<u32>,
     /// False where a name reaches beyond the item: each item is then compiled by itself.
     shareable: bool,
-    /// Definitions already read: they may share one another many times over.
-    read: HashSet<u32>,
+    /// Definitions and links already read: they may share one another many times over.
+    read: HashSet<Named>,
+}
+
+/// A formula with a name of its own.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum Named {
+    Definition(u32),
+    /// A linked dimension, by section and formula.
+    Link(u32, u32),
 }
 
 /// An item whose formula names more global variables than this is compiled by itself.
@@ -44,7 +52,7 @@ impl Plan {
             Formula::Constant(_) => {}
             Formula::Variable(variable) => self.global(*variable),
             Formula::Definition(definition) => {
-                if self.read.insert(*definition) {
+                if self.read.insert(Named::Definition(*definition)) {
                     self.visit(problem, &problem.definitions[*definition as usize].1);
                 }
             }
@@ -54,15 +62,7 @@ impl Plan {
                 self.visit(problem, right);
             }
             Formula::Fold(_, list) => list.iter().for_each(|one| self.visit(problem, one)),
-            Formula::SectionProperty(section, _) => {
-                for &dimension in problem.dimensions(*section as usize) {
-                    match dimension {
-                        Dimension::Variable(variable) => self.global(variable),
-                        Dimension::Formula(formula) => self.visit(problem, &problem.dimension_formulas[formula as usize]),
-                        Dimension::Constant(_) => {}
-                    }
-                }
-            }
+            Formula::SectionProperty(section, property) => self.named(problem, *section, &property.0),
             Formula::OwnProperty(_) => self.own = true,
             Formula::EndProperty(End::From, _) => self.from = true,
             Formula::EndProperty(End::To, _) => self.to = true,
@@ -75,6 +75,45 @@ impl Plan {
             }
             // A profile's weights and even its variables differ from item to item.
             Formula::RibVolume(_) | Formula::Volume(_) | Formula::Over { .. } | Formula::Profile(..) => self.shareable = false,
+        }
+    }
+
+    /// What a property of a section takes: one dimension where it is one, all of them otherwise.
+    fn named(&mut self, problem: &Problem, section: u32, property: &str) {
+        match problem.given_dimension(section, property) {
+            Some(dimension) => self.dimension(problem, section, dimension),
+            None => {
+                for &dimension in problem.dimensions(section as usize) {
+                    self.dimension(problem, section, dimension);
+                }
+            }
+        }
+    }
+
+    fn dimension(&mut self, problem: &Problem, section: u32, dimension: Dimension) {
+        match dimension {
+            Dimension::Constant(_) => {}
+            Dimension::Variable(variable) => self.global(variable),
+            Dimension::Formula(formula) => {
+                if self.read.insert(Named::Link(section, formula)) {
+                    self.link(problem, section, &problem.dimension_formulas[formula as usize]);
+                }
+            }
+        }
+    }
+
+    /// A linked dimension: what is its own there belongs to its section, not to the item.
+    fn link(&mut self, problem: &Problem, section: u32, formula: &Formula) {
+        match formula {
+            Formula::OwnProperty(property) => self.named(problem, section, &property.0),
+            Formula::OwnData(_) => {}
+            Formula::Unary(_, inner) => self.link(problem, section, inner),
+            Formula::Binary(_, left, right) => {
+                self.link(problem, section, left);
+                self.link(problem, section, right);
+            }
+            Formula::Fold(_, list) => list.iter().for_each(|one| self.link(problem, section, one)),
+            other => self.visit(problem, other),
         }
     }
 
@@ -109,6 +148,7 @@ impl Plan {
         for &number in &self.numbers {
             lowering.own_number(item, number);
         }
+        lowering.close();
         for &variable in &self.globals {
             lowering.variable(variable);
         }

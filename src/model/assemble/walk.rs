@@ -62,48 +62,59 @@ pub(super) struct Walk<'a> {
     facts: &'a Facts,
     plans: HashMap<Work, Plan>,
     gathered: Gathered,
+    /// Definitions opened in the formula being visited.
+    opened: usize,
 }
+
+/// Definitions of one formula taken apart at the most: they may share one another many times over. The rest is compiled whole.
+const MOST_OPENED: usize = 256;
 
 impl<'a> Walk<'a> {
     pub fn new(problem: &'a Problem, facts: &'a Facts) -> Self {
-        Walk { problem, facts, plans: HashMap::new(), gathered: Gathered::default() }
+        Walk { problem, facts, plans: HashMap::new(), gathered: Gathered::default(), opened: 0 }
     }
 
     /// Hands the pieces of `weight · formula` to the sink.
     pub fn visit(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+        self.opened = 0;
+        self.take_apart(formula, weight, context, sink)
+    }
+
+    fn take_apart(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
         if !self.facts.reaches_items(formula) {
             let (work, problem) = (Work::Formula(std::ptr::from_ref(formula) as usize), self.problem);
             self.plans.entry(work).or_insert_with(|| Plan::of(problem, formula));
             return self.piece(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
         }
         match formula {
-            Formula::Definition(definition) => {
+            Formula::Definition(definition) if self.opened < MOST_OPENED => {
+                self.opened += 1;
                 let problem = self.problem;
-                self.visit(&problem.definitions[*definition as usize].1, weight, Context::GLOBAL, sink)
+                self.take_apart(&problem.definitions[*definition as usize].1, weight, Context::GLOBAL, sink)
             }
-            Formula::Unary(Unary::Negate, inner) => self.visit(inner, -weight, context, sink),
+            Formula::Unary(Unary::Negate, inner) => self.take_apart(inner, -weight, context, sink),
             Formula::Binary(Binary::Add, left, right) => {
-                self.visit(left, weight, context, sink)?;
-                self.visit(right, weight, context, sink)
+                self.take_apart(left, weight, context, sink)?;
+                self.take_apart(right, weight, context, sink)
             }
             Formula::Binary(Binary::Subtract, left, right) => {
-                self.visit(left, weight, context, sink)?;
-                self.visit(right, -weight, context, sink)
+                self.take_apart(left, weight, context, sink)?;
+                self.take_apart(right, -weight, context, sink)
             }
             Formula::Binary(Binary::Multiply, factor, other) | Formula::Binary(Binary::Multiply, other, factor)
                 if self.facts.is_constant(factor) =>
             {
                 let factor = self.constant(factor, context);
-                self.visit(other, weight * factor, context, sink)
+                self.take_apart(other, weight * factor, context, sink)
             }
             Formula::Binary(Binary::Divide, other, divisor) if self.facts.is_constant(divisor) => {
                 let divisor = self.constant(divisor, context);
-                self.visit(other, weight / divisor, context, sink)
+                self.take_apart(other, weight / divisor, context, sink)
             }
-            Formula::Fold(Fold::Sum, list) => list.iter().try_for_each(|one| self.visit(one, weight, context, sink)),
+            Formula::Fold(Fold::Sum, list) => list.iter().try_for_each(|one| self.take_apart(one, weight, context, sink)),
             Formula::Over { fold: Fold::Sum, collection, members: which, body } => {
                 let mut items = members(self.problem, *collection, which, context).into_iter();
-                items.try_for_each(|index| self.visit(body, weight, context.of(item_of(*collection, index)), sink))
+                items.try_for_each(|index| self.take_apart(body, weight, context.of(item_of(*collection, index)), sink))
             }
             Formula::Volume(total) => {
                 let mut ribs = 0..self.problem.ribs.names.len() as u32;

@@ -40,6 +40,11 @@ impl Partition {
         self.len() == 0
     }
 
+    /// Variables of the largest component.
+    pub fn largest(&self) -> usize {
+        self.variable_offsets.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(0)
+    }
+
     /// The variables of component k, ascending.
     pub fn variables(&self, k: usize) -> &[u32] {
         &self.variables[self.variable_offsets[k] as usize..self.variable_offsets[k + 1] as usize]

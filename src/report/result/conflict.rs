@@ -14,6 +14,7 @@ struct Amount {
 pub(super) struct ConflictPart {
     violated: Vec<Amount>,
     constraints: Vec<String>,
+    places: Vec<Option<String>>,
     bounds: Vec<String>,
     relaxations: Vec<Amount>,
     minimal: bool,
@@ -29,6 +30,7 @@ impl ConflictPart {
         Some(ConflictPart {
             violated: amounts(&conflict.violated_rows),
             constraints: conflict.rows.iter().map(|&i| model.row_name(i)).collect(),
+            places: conflict.rows.iter().map(|&i| model.row_place(i)).collect(),
             bounds: conflict.bounds.iter().map(|&(j, upper)| format!("{}.{}", model.variable_name(j), side(upper))).collect(),
             relaxations: amounts(&conflict.relaxations),
             minimal: conflict.minimal,

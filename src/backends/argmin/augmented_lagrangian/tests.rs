@@ -2,7 +2,7 @@ use num_dual::DualNum;
 
 use crate::backends::argmin::Argmin;
 use crate::backends::{Backend, Job, Solution, Termination};
-use crate::model::handmade::{Formulas, Handmade};
+use crate::model::sample::Sample;
 use crate::model::{Budget, Model};
 
 const OPEN: f64 = f64::INFINITY;
@@ -61,20 +61,11 @@ fn assert_solved(model: &dyn Model, optimum: f64) {
 }
 
 /// Hock and Schittkowski's problem 71.
-struct Hs71;
-
-impl Formulas for Hs71 {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2]
-    }
-
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        vec![x[0] * x[1] * x[2] * x[3], x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]]
-    }
-}
-
-fn hs71() -> Handmade<Hs71> {
-    Handmade::new(Hs71, &[1.0, 5.0, 5.0, 1.0].map(|start| (1.0, start, 5.0)), &[(25.0, OPEN), (40.0, 40.0)])
+fn hs71() -> Sample {
+    Sample::new(&[1.0, 5.0, 5.0, 1.0], |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
+        .bounds(&[1.0; 4], &[5.0; 4])
+        .row(25.0, OPEN, |x| x[0] * x[1] * x[2] * x[3])
+        .row(40.0, 40.0, |x| x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3])
 }
 
 #[test]
@@ -82,96 +73,65 @@ fn an_equality_an_inequality_and_an_active_bound() {
     assert_solved(&hs71(), 17.014_017_289_151_34);
 }
 
-struct Rosenbrock;
-
-impl Formulas for Rosenbrock {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (x[1] - x[0] * x[0]).powi(2) * 100.0 + (-x[0] + 1.0).powi(2)
-    }
+fn rosenbrock(x: (f64, f64, f64)) -> Sample {
+    let (lower, start, upper) = x;
+    Sample::new(&[start, 1.0], |x| (x[1] - x[0] * x[0]).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
+        .bounds(&[lower, -2.0], &[upper, 2.0])
 }
 
 #[test]
 fn bounds_only() {
-    assert_solved(&Handmade::new(Rosenbrock, &[(-2.0, -1.2, 2.0), (-2.0, 1.0, 2.0)], &[]), 0.0);
-    assert_solved(&Handmade::new(Rosenbrock, &[(-2.0, -1.2, 0.5), (-2.0, 1.0, 2.0)], &[]), 0.25);
-    assert_solved(&Handmade::new(Rosenbrock, &[(0.5, 0.5, 0.5), (-2.0, 1.0, 2.0)], &[]), 0.25);
+    assert_solved(&rosenbrock((-2.0, -1.2, 2.0)), 0.0);
+    assert_solved(&rosenbrock((-2.0, -1.2, 0.5)), 0.25);
+    assert_solved(&rosenbrock((0.5, 0.5, 0.5)), 0.25);
 }
 
 /// Svanberg's cantilever with sizes in very different units: x_0 in thousandths.
-struct Cantilever;
-
-impl Formulas for Cantilever {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (x[0] * 1e-3 + x[1] + x[2] + x[3] + x[4]) * 0.0624
-    }
-
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        let weights = [61e9, 37.0, 19.0, 7.0, 1.0];
-        vec![x.iter().zip(weights).fold(D::from(0.0), |sum, (x, weight)| sum + x.powi(-3) * weight)]
-    }
-}
-
 #[test]
 fn mixed_units() {
     let optimum = 0.0624 * [61.0, 37.0, 19.0, 7.0, 1.0_f64].map(|weight| weight.powf(0.25)).iter().sum::<f64>().powf(4.0 / 3.0);
-    let mut variables = [(0.1, 5.0, 10.0); 5];
-    variables[0] = (100.0, 5e3, 1e4);
-    assert_solved(&Handmade::new(Cantilever, &variables, &[(-OPEN, 1.0)]), optimum);
+    let cantilever = Sample::new(&[5e3, 5.0, 5.0, 5.0, 5.0], |x| (x[0] * 1e-3 + x[1] + x[2] + x[3] + x[4]) * 0.0624)
+        .bounds(&[100.0, 0.1, 0.1, 0.1, 0.1], &[1e4, 10.0, 10.0, 10.0, 10.0])
+        .row(-OPEN, 1.0, |x| x.iter().zip([61e9, 37.0, 19.0, 7.0, 1.0]).map(|(x, weight)| x.powi(-3) * weight).sum());
+    assert_solved(&cantilever, optimum);
 }
 
-/// min x + y within the ring 1 ≤ x² + y² ≤ 4, x ≥ y twice over (dependent rows).
-struct Ring;
-
-impl Formulas for Ring {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        x[0] + x[1]
-    }
-
-    fn rows<D: DualNum<f64> + Copy>(&self, x: &[D]) -> Vec<D> {
-        vec![x[0] * x[0] + x[1] * x[1], x[0] - x[1], (x[0] - x[1]) * 2.0]
-    }
+/// min x + y under limits of x² + y², x − y and 2(x − y) (dependent rows).
+fn ring(rows: [(f64, f64); 3]) -> Sample {
+    Sample::new(&[1.0, 0.5], |x| x[0] + x[1])
+        .bounds(&[-3.0; 2], &[3.0; 2])
+        .row(rows[0].0, rows[0].1, |x| x[0] * x[0] + x[1] * x[1])
+        .row(rows[1].0, rows[1].1, |x| x[0] - x[1])
+        .row(rows[2].0, rows[2].1, |x| (x[0] - x[1]) * 2.0)
 }
 
 #[test]
 fn two_sided_and_dependent_rows() {
-    let rows = [(1.0, 4.0), (0.0, OPEN), (0.0, OPEN)];
-    assert_solved(&Handmade::new(Ring, &[(-3.0, 1.0, 3.0), (-3.0, 0.5, 3.0)], &rows), -8.0_f64.sqrt());
+    assert_solved(&ring([(1.0, 4.0), (0.0, OPEN), (0.0, OPEN)]), -8.0_f64.sqrt());
 }
 
 /// −log x + x on x ≥ 0.
-struct Barrier;
-
-impl Formulas for Barrier {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        -x[0].ln() + x[0]
-    }
+fn barrier(start: f64) -> Sample {
+    Sample::new(&[start], |x| -x[0].ln() + x[0]).bounds(&[0.0], &[50.0])
 }
 
 #[test]
 fn trial_steps_out_of_the_domain_are_shortened() {
-    assert_solved(&Handmade::new(Barrier, &[(0.0, 40.0, 50.0)], &[]), 1.0);
-}
-
-/// √(−1 − x²)
-struct Nowhere;
-
-impl Formulas for Nowhere {
-    fn objective<D: DualNum<f64> + Copy>(&self, x: &[D]) -> D {
-        (-x[0] * x[0] - 1.0).sqrt()
-    }
+    assert_solved(&barrier(40.0), 1.0);
 }
 
 #[test]
 fn a_start_without_value_is_moved_or_told() {
-    assert_solved(&Handmade::new(Barrier, &[(0.0, 0.0, 50.0)], &[]), 1.0);
-    let solution = solve(&Handmade::new(Nowhere, &[(-1.0, 0.0, 1.0)], &[]));
+    assert_solved(&barrier(0.0), 1.0);
+    let nowhere = Sample::new(&[0.0], |x| (-x[0] * x[0] - 1.0).sqrt()).bounds(&[-1.0], &[1.0]);
+    let solution = solve(&nowhere);
     assert_eq!(solution.termination, Termination::Failed);
     assert!(solution.invalid.unwrap().contains("objective"));
 }
 
 #[test]
 fn rows_that_cannot_be_met_end_the_run() {
-    let solution = solve(&Handmade::new(Ring, &[(-3.0, 1.0, 3.0), (-3.0, 0.5, 3.0)], &[(20.0, OPEN), (0.0, 0.0), (1.0, OPEN)]));
+    let solution = solve(&ring([(20.0, OPEN), (0.0, 0.0), (1.0, OPEN)]));
     assert!(solution.message.contains("falls no further"), "{}", solution.message);
 }
 

@@ -44,7 +44,6 @@ pub(super) struct Header {
     pub evaluations: u32,
     /// The barrier parameter at which the active set was last tried.
     pub tried: f64,
-    pub hard: bool,
 }
 
 /// One component's iterate, scaled: n variables, then m slacks, with bounds' multipliers, and the rows' own.
@@ -92,7 +91,6 @@ impl Arena {
                 iterations: 0,
                 evaluations: 0,
                 tried: f64::INFINITY,
-                hard: false,
             }
         };
         let length = |k: usize| {

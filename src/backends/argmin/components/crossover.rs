@@ -94,7 +94,7 @@ impl Crossover {
             if self.error <= EXACT || (self.error <= ACCEPTED && self.error > 0.5 * last) {
                 return self.free.is_empty() || last < f64::INFINITY || self.bends_up(frame, piece);
             }
-            if !(self.error < last) || !self.bends_up(frame, piece) {
+            if self.error.is_nan() || self.error >= last || !self.bends_up(frame, piece) {
                 return false;
             }
             last = self.error;

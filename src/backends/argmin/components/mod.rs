@@ -118,13 +118,6 @@ impl<'a> Components<'a> {
 
     fn conclusion(&self) -> Conclusion {
         let headers = self.arena.headers();
-        if std::env::var("DEBUGC").is_ok() {
-            let mut h = std::collections::BTreeMap::new();
-            for x in headers {
-                *h.entry((x.iterations / 5 * 5, x.hard, x.tried < 1e300 && x.error < 1e-12)).or_insert(0) += 1;
-            }
-            eprintln!("{h:?}");
-        }
         let failed = headers.iter().filter(|header| header.phase != Phase::Solved).count();
         let error = headers.iter().map(|header| header.error).fold(0.0, f64::max);
         let count = headers.len();
@@ -154,7 +147,6 @@ fn by_sparse_interior_point(pieces: &dyn Pieces, start: &[f64], mut frame: Frame
     }
     frame.turn_to(piece);
     let header = &mut piece.header;
-    header.hard = true;
     header.evaluations = u32::try_from(evaluator.evaluations()).unwrap_or(u32::MAX);
     header.phase = if solved.is_some() { Phase::Solved } else { Phase::Failed };
     let Some(point) = solved else { return };

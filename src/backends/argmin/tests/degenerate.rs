@@ -2,14 +2,14 @@
 
 use num_dual::DualNum;
 
-use super::super::test_models::ClosureModel;
 use super::{FREE, assert_optimum, solve, violation};
 use crate::backends::Termination;
 use crate::model::Model;
+use crate::model::sample::Sample;
 
 #[test]
 fn duplicated_rows_and_equalities() {
-    let model = ClosureModel::new(&[3.0, -1.0], |x| x[0].powi(2) + x[1].powi(2))
+    let model = Sample::new(&[3.0, -1.0], |x| x[0].powi(2) + x[1].powi(2))
         .row(1.0, 1.0, |x| x[0] + x[1])
         .row(2.0, 2.0, |x| (x[0] + x[1]) * 2.0)
         .row(0.25, FREE, |x| x[0])
@@ -20,7 +20,7 @@ fn duplicated_rows_and_equalities() {
 #[test]
 fn more_equalities_than_variables() {
     let model =
-        ClosureModel::new(&[5.0], |x| x[0].powi(2))
+        Sample::new(&[5.0], |x| x[0].powi(2))
             .row(2.0, 2.0, |x| x[0])
             .row(4.0, 4.0, |x| x[0].powi(2))
             .row(8.0, 8.0, |x| x[0].powi(3));
@@ -29,7 +29,7 @@ fn more_equalities_than_variables() {
 
 #[test]
 fn fixed_variables_keep_their_value() {
-    let model = ClosureModel::new(&[1.0, 3.0, 0.0], |x| (x[0] - x[1]).powi(2) + x[2])
+    let model = Sample::new(&[1.0, 3.0, 0.0], |x| (x[0] - x[1]).powi(2) + x[2])
         .bounds(&[-FREE, 3.0, -1.0], &[FREE, 3.0, -1.0])
         .row(-FREE, 7.0, |x| x[0] + x[1]);
     let solution = assert_optimum("fixed", &model, -1.0);
@@ -38,16 +38,16 @@ fn fixed_variables_keep_their_value() {
 
 #[test]
 fn everything_fixed_and_nothing_constrained() {
-    let fixed = ClosureModel::new(&[2.0], |x| x[0].powi(2)).bounds(&[2.0], &[2.0]).row(-FREE, 5.0, |x| x[0]);
+    let fixed = Sample::new(&[2.0], |x| x[0].powi(2)).bounds(&[2.0], &[2.0]).row(-FREE, 5.0, |x| x[0]);
     assert_optimum("fixed", &fixed, 4.0);
-    let free = ClosureModel::new(&[10.0], |x| (x[0] - 3.0).powi(4));
+    let free = Sample::new(&[10.0], |x| (x[0] - 3.0).powi(4));
     let solution = solve(&free);
     assert!((solution.x[0] - 3.0).abs() < 1e-3, "{solution:?}");
 }
 
 #[test]
 fn linear_program_ends_in_its_vertex() {
-    let model = ClosureModel::new(&[1.0, 1.0], |x| -x[0] - x[1] * 2.0)
+    let model = Sample::new(&[1.0, 1.0], |x| -x[0] - x[1] * 2.0)
         .bounds(&[0.0, 0.0], &[FREE, FREE])
         .row(-FREE, 4.0, |x| x[0] + x[1])
         .row(-FREE, 6.0, |x| x[0] + x[1] * 3.0);
@@ -57,22 +57,22 @@ fn linear_program_ends_in_its_vertex() {
 
 #[test]
 fn saddles_and_maxima_are_left() {
-    let saddle = ClosureModel::new(&[0.0, 0.0], |x| x[0].powi(2) - x[1].powi(2) + x[1].powi(4));
+    let saddle = Sample::new(&[0.0, 0.0], |x| x[0].powi(2) - x[1].powi(2) + x[1].powi(4));
     assert_optimum("saddle", &saddle, -0.25);
-    let maximum = ClosureModel::new(&[0.0], |x| -x[0].powi(2)).bounds(&[-1.0], &[1.0]);
+    let maximum = Sample::new(&[0.0], |x| -x[0].powi(2)).bounds(&[-1.0], &[1.0]);
     assert_optimum("maximum", &maximum, -1.0);
-    let on_a_circle = ClosureModel::new(&[1.0, 0.0], |x| x[0] * 2.0 + x[1] * 0.0).row(1.0, 1.0, |x| x[0].powi(2) + x[1].powi(2));
+    let on_a_circle = Sample::new(&[1.0, 0.0], |x| x[0] * 2.0 + x[1] * 0.0).row(1.0, 1.0, |x| x[0].powi(2) + x[1].powi(2));
     assert_optimum("maximum on a circle", &on_a_circle, -2.0);
 }
 
 #[test]
 fn infeasible_rows_end_at_the_least_violation() {
-    let linear = ClosureModel::new(&[0.0], |x| x[0].powi(2)).row(3.0, FREE, |x| x[0]).row(-FREE, 1.0, |x| x[0]);
+    let linear = Sample::new(&[0.0], |x| x[0].powi(2)).row(3.0, FREE, |x| x[0]).row(-FREE, 1.0, |x| x[0]);
     let solution = solve(&linear);
     assert_eq!(solution.termination, Termination::Converged);
     assert!(solution.message.contains("locally infeasible"), "{solution:?}");
     assert!((1.0..=3.0).contains(&solution.x[0]) && violation(&linear, &solution.x) <= 2.0 + 1e-9, "{solution:?}");
-    let curved = ClosureModel::new(&[2.0, 2.0], |x| x[0] + x[1]).row(-FREE, -1.0, |x| x[0].powi(2) + x[1].powi(2));
+    let curved = Sample::new(&[2.0, 2.0], |x| x[0] + x[1]).row(-FREE, -1.0, |x| x[0].powi(2) + x[1].powi(2));
     let solution = solve(&curved);
     assert!(solution.x.iter().all(|x| x.abs() < 1e-5), "{solution:?}");
     assert!(solution.message.contains("locally infeasible"), "{solution:?}");
@@ -80,7 +80,7 @@ fn infeasible_rows_end_at_the_least_violation() {
 
 #[test]
 fn infeasible_by_a_millionth_is_infeasible() {
-    let model = ClosureModel::new(&[0.3, 0.3], |x| x[0]).row(1.0 + 1e-6, FREE, |x| x[0] + x[1]).row(-FREE, 1.0, |x| x[0] + x[1]);
+    let model = Sample::new(&[0.3, 0.3], |x| x[0]).row(1.0 + 1e-6, FREE, |x| x[0] + x[1]).row(-FREE, 1.0, |x| x[0] + x[1]);
     let solution = solve(&model);
     assert!(violation(&model, &solution.x) > 1e-8);
     assert!(!solution.message.contains("no further progress"), "{solution:?}");
@@ -88,7 +88,7 @@ fn infeasible_by_a_millionth_is_infeasible() {
 
 #[test]
 fn unbounded_objectives_are_told() {
-    let model = ClosureModel::new(&[0.0, 0.0], |x| x[0] - x[1]).bounds(&[-FREE, 0.0], &[3.0, FREE]);
+    let model = Sample::new(&[0.0, 0.0], |x| x[0] - x[1]).bounds(&[-FREE, 0.0], &[3.0, FREE]);
     let solution = solve(&model);
     assert!(solution.message.contains("diverge"), "{solution:?}");
     assert!(model.objective(&solution.x).unwrap() < -1e6);
@@ -96,18 +96,19 @@ fn unbounded_objectives_are_told() {
 
 #[test]
 fn no_interior_between_opposite_rows() {
-    let model =
-        ClosureModel::new(&[4.0, 4.0], |x| x[0].powi(2) + x[1].powi(2))
-            .row(-FREE, 1.0, |x| x[0] + x[1])
-            .row(1.0, FREE, |x| x[0] + x[1]);
+    let model = Sample::new(&[4.0, 4.0], |x| x[0].powi(2) + x[1].powi(2))
+        .row(-FREE, 1.0, |x| x[0] + x[1])
+        .row(1.0, FREE, |x| x[0] + x[1]);
     assert_optimum("opposite rows", &model, 0.5);
 }
 
 #[test]
 fn complementarity_constraints() {
-    let model = ClosureModel::new(&[1.0, 1.0], |x| (x[0] - 1.0).powi(2) + (x[1] - 2.0).powi(2))
-        .bounds(&[0.0, 0.0], &[FREE, FREE])
-        .row(-FREE, 0.0, |x| x[0] * x[1]);
+    let model = Sample::new(&[1.0, 1.0], |x| (x[0] - 1.0).powi(2) + (x[1] - 2.0).powi(2)).bounds(&[0.0, 0.0], &[FREE, FREE]).row(
+        -FREE,
+        0.0,
+        |x| x[0] * x[1],
+    );
     let solution = solve(&model);
     let objective = model.objective(&solution.x).unwrap();
     assert!((objective - 1.0).abs() < 1e-6 || (objective - 4.0).abs() < 1e-6, "{solution:?}");

@@ -1,44 +1,45 @@
 //! Problems and optima from W. Hock, K. Schittkowski: Test Examples for Nonlinear Programming Codes (1981).
 
-use num_dual::{DualNum, HyperDual64};
+use num_dual::DualNum;
 
-use super::super::test_models::ClosureModel;
 use super::{FREE, assert_optimum};
+use crate::model::sample::{Sample, Value};
 
 #[test]
 fn hs001_rosenbrock_with_a_bound() {
-    let model = ClosureModel::new(&[-2.0, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
+    let model = Sample::new(&[-2.0, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
         .bounds(&[-FREE, -1.5], &[FREE, FREE]);
     assert_optimum("hs001", &model, 0.0);
 }
 
 #[test]
 fn hs005_sine_in_a_box() {
-    let model = ClosureModel::new(&[0.0, 0.0], |x| (x[0] + x[1]).sin() + (x[0] - x[1]).powi(2) - x[0] * 1.5 + x[1] * 2.5 + 1.0)
+    let model = Sample::new(&[0.0, 0.0], |x| (x[0] + x[1]).sin() + (x[0] - x[1]).powi(2) - x[0] * 1.5 + x[1] * 2.5 + 1.0)
         .bounds(&[-1.5, -3.0], &[4.0, 3.0]);
     assert_optimum("hs005", &model, -(3f64.sqrt()) / 2.0 - std::f64::consts::FRAC_PI_3);
 }
 
 #[test]
 fn hs006_and_hs008_equalities() {
-    let hs006 = ClosureModel::new(&[-1.2, 1.0], |x| (-x[0] + 1.0).powi(2)).row(0.0, 0.0, |x| (x[1] - x[0].powi(2)) * 10.0);
+    let hs006 = Sample::new(&[-1.2, 1.0], |x| (-x[0] + 1.0).powi(2)).row(0.0, 0.0, |x| (x[1] - x[0].powi(2)) * 10.0);
     assert_optimum("hs006", &hs006, 0.0);
-    let hs008 = ClosureModel::new(&[2.0, 1.0], |_| HyperDual64::from_re(-1.0))
-        .row(25.0, 25.0, |x| x[0].powi(2) + x[1].powi(2))
-        .row(9.0, 9.0, |x| x[0] * x[1]);
+    let hs008 =
+        Sample::new(&[2.0, 1.0], |_| Value::from_re(-1.0))
+            .row(25.0, 25.0, |x| x[0].powi(2) + x[1].powi(2))
+            .row(9.0, 9.0, |x| x[0] * x[1]);
     assert_optimum("hs008", &hs008, -1.0);
 }
 
 #[test]
 fn hs010_one_quadratic_row() {
-    let model = ClosureModel::new(&[-10.0, 10.0], |x| x[0] - x[1])
+    let model = Sample::new(&[-10.0, 10.0], |x| x[0] - x[1])
         .row(0.0, FREE, |x| -x[0].powi(2) * 3.0 + x[0] * x[1] * 2.0 - x[1].powi(2) + 1.0);
     assert_optimum("hs010", &model, -1.0);
 }
 
 #[test]
 fn hs015_rosenbrock_with_rows() {
-    let model = ClosureModel::new(&[-2.0, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
+    let model = Sample::new(&[-2.0, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
         .bounds(&[-FREE, -FREE], &[0.5, FREE])
         .row(1.0, FREE, |x| x[0] * x[1])
         .row(0.0, FREE, |x| x[0] + x[1].powi(2));
@@ -47,7 +48,7 @@ fn hs015_rosenbrock_with_rows() {
 
 #[test]
 fn hs023_five_rows() {
-    let model = ClosureModel::new(&[3.0, 1.0], |x| x[0].powi(2) + x[1].powi(2))
+    let model = Sample::new(&[3.0, 1.0], |x| x[0].powi(2) + x[1].powi(2))
         .bounds(&[-50.0; 2], &[50.0; 2])
         .row(1.0, FREE, |x| x[0] + x[1])
         .row(1.0, FREE, |x| x[0].powi(2) + x[1].powi(2))
@@ -59,18 +60,18 @@ fn hs023_five_rows() {
 
 #[test]
 fn hs026_singular_hessian_at_the_solution() {
-    let model = ClosureModel::new(&[-2.6, 2.0, 2.0], |x| (x[0] - x[1]).powi(2) + (x[1] - x[2]).powi(4))
+    let model = Sample::new(&[-2.6, 2.0, 2.0], |x| (x[0] - x[1]).powi(2) + (x[1] - x[2]).powi(4))
         .row(3.0, 3.0, |x| (x[1].powi(2) + 1.0) * x[0] + x[2].powi(4));
     assert_optimum("hs026", &model, 0.0);
 }
 
 #[test]
 fn hs030_and_hs038() {
-    let hs030 = ClosureModel::new(&[1.0; 3], |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2))
+    let hs030 = Sample::new(&[1.0; 3], |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2))
         .bounds(&[1.0, -10.0, -10.0], &[10.0; 3])
         .row(1.0, FREE, |x| x[0].powi(2) + x[1].powi(2));
     assert_optimum("hs030", &hs030, 1.0);
-    let hs038 = ClosureModel::new(&[-3.0, -1.0, -3.0, -1.0], |x| {
+    let hs038 = Sample::new(&[-3.0, -1.0, -3.0, -1.0], |x| {
         (x[1] - x[0].powi(2)).powi(2) * 100.0
             + (-x[0] + 1.0).powi(2)
             + (x[3] - x[2].powi(2)).powi(2) * 90.0
@@ -84,7 +85,7 @@ fn hs030_and_hs038() {
 
 #[test]
 fn hs043_rosen_suzuki() {
-    let model = ClosureModel::new(&[0.0; 4], |x| {
+    let model = Sample::new(&[0.0; 4], |x| {
         x[0].powi(2) + x[1].powi(2) + x[2].powi(2) * 2.0 + x[3].powi(2) - x[0] * 5.0 - x[1] * 5.0 - x[2] * 21.0 + x[3] * 7.0
     })
     .row(-FREE, 8.0, |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2) + x[3].powi(2) + x[0] - x[1] + x[2] - x[3])
@@ -98,14 +99,14 @@ fn hs043_rosen_suzuki() {
 
 #[test]
 fn hs061_and_hs063_nonlinear_equalities() {
-    let hs061 = ClosureModel::new(&[0.0; 3], |x| {
+    let hs061 = Sample::new(&[0.0; 3], |x| {
         x[0].powi(2) * 4.0 + x[1].powi(2) * 2.0 + x[2].powi(2) * 2.0 - x[0] * 33.0 + x[1] * 16.0 - x[2] * 24.0
     })
     .row(7.0, 7.0, |x| x[0] * 3.0 - x[1].powi(2) * 2.0)
     .row(11.0, 11.0, |x| x[0] * 4.0 - x[2].powi(2));
     assert_optimum("hs061", &hs061, -143.646_142_201_031_67);
     let hs063 =
-        ClosureModel::new(&[2.0; 3], |x| -x[0].powi(2) - x[1].powi(2) * 2.0 - x[2].powi(2) - x[0] * x[1] - x[0] * x[2] + 1000.0)
+        Sample::new(&[2.0; 3], |x| -x[0].powi(2) - x[1].powi(2) * 2.0 - x[2].powi(2) - x[0] * x[1] - x[0] * x[2] + 1000.0)
             .bounds(&[0.0; 3], &[FREE; 3])
             .row(56.0, 56.0, |x| x[0] * 8.0 + x[1] * 14.0 + x[2] * 7.0)
             .row(25.0, 25.0, |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2));
@@ -114,7 +115,7 @@ fn hs061_and_hs063_nonlinear_equalities() {
 
 #[test]
 fn hs071_the_tutorial_problem() {
-    let model = ClosureModel::new(&[1.0, 5.0, 5.0, 1.0], |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
+    let model = Sample::new(&[1.0, 5.0, 5.0, 1.0], |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
         .bounds(&[1.0; 4], &[5.0; 4])
         .row(25.0, FREE, |x| x[0] * x[1] * x[2] * x[3])
         .row(40.0, 40.0, |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2) + x[3].powi(2));
@@ -124,7 +125,7 @@ fn hs071_the_tutorial_problem() {
 
 #[test]
 fn hs100_four_rows_in_seven_variables() {
-    let model = ClosureModel::new(&[1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0], |x| {
+    let model = Sample::new(&[1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0], |x| {
         (x[0] - 10.0).powi(2)
             + (x[1] - 12.0).powi(2) * 5.0
             + x[2].powi(4)
@@ -146,7 +147,7 @@ fn hs100_four_rows_in_seven_variables() {
 #[test]
 fn hs106_heat_exchanger_badly_scaled() {
     let start = [5000.0, 5000.0, 5000.0, 200.0, 350.0, 150.0, 225.0, 425.0];
-    let model = ClosureModel::new(&start, |x| x[0] + x[1] + x[2])
+    let model = Sample::new(&start, |x| x[0] + x[1] + x[2])
         .bounds(&[100.0, 1000.0, 1000.0, 10.0, 10.0, 10.0, 10.0, 10.0], &[1e4, 1e4, 1e4, 1e3, 1e3, 1e3, 1e3, 1e3])
         .row(-FREE, 1.0, |x| (x[3] + x[5]) * 0.0025)
         .row(-FREE, 1.0, |x| (x[4] + x[6] - x[3]) * 0.0025)

@@ -6,8 +6,8 @@ mod large;
 mod runs;
 
 use super::Argmin;
-use super::test_models::ClosureModel;
 use crate::backends::{Backend, Job, Solution};
+use crate::model::sample::Sample;
 use crate::model::{Budget, Model};
 
 const FREE: f64 = f64::INFINITY;
@@ -66,7 +66,7 @@ fn stationarity(model: &dyn Model, solution: &Solution) -> f64 {
 }
 
 /// Solved: the optimum is met to nine digits, feasible to rounding, with multipliers that prove it.
-fn assert_optimum(name: &str, model: &ClosureModel, optimum: f64) -> Solution {
+fn assert_optimum(name: &str, model: &Sample, optimum: f64) -> Solution {
     let solution = solve(model);
     let objective = model.objective(&solution.x).unwrap();
     let report = format!("{name}: f = {objective:e} instead of {optimum:e}; {solution:?}");

@@ -4,14 +4,14 @@ use std::sync::atomic::AtomicBool;
 
 use num_dual::DualNum;
 
-use super::super::test_models::ClosureModel;
 use super::{FREE, assert_optimum, solve, solve_with};
 use crate::backends::argmin::Argmin;
 use crate::backends::{Backend, Job, Termination};
+use crate::model::sample::Sample;
 use crate::model::{Budget, Model};
 
-fn rosenbrock() -> ClosureModel {
-    ClosureModel::new(&[-1.2, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
+fn rosenbrock() -> Sample {
+    Sample::new(&[-1.2, 1.0], |x| (x[1] - x[0].powi(2)).powi(2) * 100.0 + (-x[0] + 1.0).powi(2))
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn limits_and_interrupts_hand_back_the_best_point() {
 
 #[test]
 fn the_best_point_is_feasible_before_it_is_cheap() {
-    let model = ClosureModel::new(&[10.0, 10.0], |x| x[0] + x[1]).row(1.0, FREE, |x| x[0] * x[1]).bounds(&[0.0; 2], &[FREE; 2]);
+    let model = Sample::new(&[10.0, 10.0], |x| x[0] + x[1]).row(1.0, FREE, |x| x[0] * x[1]).bounds(&[0.0; 2], &[FREE; 2]);
     let stopped = solve_with(&model, Budget { max_evaluations: 8, ..Budget::default() }, None);
     assert_eq!(stopped.termination, Termination::LimitReached);
     assert!(super::violation(&model, &stopped.x) <= 1e-8, "{stopped:?}");
@@ -67,26 +67,26 @@ fn unknown_algorithms_are_refused() {
 
 #[test]
 fn the_edge_of_the_domain_shortens_steps() {
-    let model = ClosureModel::new(&[100.0], |x| x[0] - x[0].ln());
+    let model = Sample::new(&[100.0], |x| x[0] - x[0].ln());
     assert_optimum("log", &model, 1.0);
 }
 
 #[test]
 fn a_start_outside_the_domain_is_moved_or_named() {
-    let model = ClosureModel::new(&[0.0], |x| x[0] - x[0].ln()).bounds(&[-1.0], &[5.0]);
+    let model = Sample::new(&[0.0], |x| x[0] - x[0].ln()).bounds(&[-1.0], &[5.0]);
     let solution = solve(&model);
     assert!((solution.x[0] - 1.0).abs() < 1e-9, "{solution:?}");
-    let hopeless = ClosureModel::new(&[0.0], |x| (-x[0].powi(2) - 1.0).ln());
+    let hopeless = Sample::new(&[0.0], |x| (-x[0].powi(2) - 1.0).ln());
     let solution = solve(&hopeless);
     assert_eq!(solution.termination, Termination::Failed);
-    assert!(solution.invalid.is_some_and(|term| term.contains("term")));
+    assert!(solution.invalid.is_some_and(|term| term.contains("objective")));
     assert_eq!(solution.x, [0.0]);
 }
 
 #[test]
 fn a_warm_start_takes_few_iterations() {
     let model = |start: [f64; 4]| {
-        ClosureModel::new(&start, |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
+        Sample::new(&start, |x| x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2])
             .bounds(&[1.0; 4], &[5.0; 4])
             .row(25.0, FREE, |x| x[0] * x[1] * x[2] * x[3])
             .row(40.0, 40.0, |x| x[0].powi(2) + x[1].powi(2) + x[2].powi(2) + x[3].powi(2))
@@ -101,7 +101,7 @@ fn a_warm_start_takes_few_iterations() {
 #[test]
 fn units_do_not_matter() {
     for unit in [1e-6, 1e-3, 1e3, 1e6] {
-        let model = ClosureModel::new(&[3.0 * unit, 2.0 * unit], move |x| x[0] * x[1] * 7.0)
+        let model = Sample::new(&[3.0 * unit, 2.0 * unit], move |x| x[0] * x[1] * 7.0)
             .bounds(&[0.1 * unit, 0.1 * unit], &[10.0 * unit, 10.0 * unit])
             .row(8.0 * unit.powi(4), FREE, |x| x[0] * x[1].powi(3));
         let solution = solve(&model);

@@ -1,0 +1,116 @@
+//! A panel with two axes, each linear or logarithmic.
+
+use super::canvas::Canvas;
+use crate::report::number::significant;
+
+/// Values from one end of an axis to the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale {
+    from: f64,
+    to: f64,
+    logarithmic: bool,
+}
+
+impl Scale {
+    /// From the least to the greatest of these values, with some room; from 0 to 1 without any.
+    pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
+        let (low, high) = range(values).unwrap_or((0.0, 1.0));
+        let room = if high > low { 0.05 * (high - low) } else { 0.5 * high.abs().max(1e-12) };
+        Scale { from: low - room, to: high + room, logarithmic: false }
+    }
+
+    /// From exactly here to there.
+    pub fn between(from: f64, to: f64) -> Scale {
+        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: false }
+    }
+
+    /// Whole powers of ten around these values.
+    pub fn logarithmic(values: impl Iterator<Item = f64>) -> Scale {
+        let (low, high) = range(values.filter(|value| *value > 0.0)).unwrap_or((0.1, 1.0));
+        let (from, to) = (low.log10().floor(), high.log10().ceil());
+        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: true }
+    }
+
+    /// Where a value stands, from 0 to 1; what lies beyond the axis stands at its end.
+    pub fn share(&self, value: f64) -> f64 {
+        let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
+        ((value - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
+    }
+
+    /// Round values, five or so.
+    fn ticks(&self) -> Vec<f64> {
+        if self.logarithmic {
+            let step = ((self.to - self.from) / 6.0).ceil().max(1.0);
+            let count = ((self.to - self.from) / step).floor() as i32;
+            return (0..=count).map(|k| 10f64.powf(self.from + f64::from(k) * step)).collect();
+        }
+        let rough = (self.to - self.from) / 5.0;
+        let power = 10f64.powf(rough.log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| *step >= rough).unwrap_or(power);
+        let first = (self.from / step).ceil();
+        (0..20).map(|k| (first + f64::from(k)) * step).take_while(|tick| *tick <= self.to * (1.0 + 1e-12)).collect()
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.filter(|value| value.is_finite()).fold(None, |found, value| match found {
+        None => Some((value, value)),
+        Some((low, high)) => Some((low.min(value), high.max(value))),
+    })
+}
+
+/// A panel on the sheet.
+pub(super) struct Panel {
+    pub left: f64,
+    pub top: f64,
+    pub width: f64,
+    pub height: f64,
+    pub x: Scale,
+    pub y: Scale,
+}
+
+impl Panel {
+    /// Where a point stands on the sheet; NaN stays NaN.
+    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.left + self.width * self.x.share(x), self.top + self.height * (1.0 - self.y.share(y))]
+    }
+
+    /// Grid, ticks and names of the axes.
+    pub fn draw(&self, canvas: &mut Canvas, x_name: &str, y_name: &str) {
+        let (right, bottom) = (self.left + self.width, self.top + self.height);
+        for tick in self.y.ticks() {
+            let y = self.top + self.height * (1.0 - self.y.share(tick));
+            canvas.line([self.left, y, right, y], "#e4e4e4");
+            canvas.text(self.left - 6.0, y + 4.0, "end", &significant(tick, 3));
+        }
+        for tick in self.x.ticks() {
+            let x = self.left + self.width * self.x.share(tick);
+            canvas.line([x, self.top, x, bottom], "#e4e4e4");
+            canvas.text(x, bottom + 15.0, "middle", &significant(tick, 3));
+        }
+        canvas.line([self.left, bottom, right, bottom], "black");
+        canvas.line([self.left, self.top, self.left, bottom], "black");
+        canvas.text((self.left + right) / 2.0, bottom + 31.0, "middle", x_name);
+        canvas.upright(self.left - 58.0, (self.top + bottom) / 2.0, y_name);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(Scale::between(0.0, 1.0).ticks(), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
+        let decades = Scale::logarithmic([3e-9, 40.0].into_iter());
+        assert_eq!(decades.ticks().len(), 6);
+        assert_eq!((decades.share(1e-9), decades.share(100.0), decades.share(0.0)), (0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn no_values_and_one_value_still_make_an_axis() {
+        for scale in [Scale::linear([].into_iter()), Scale::linear([2.0].into_iter()), Scale::logarithmic([0.0].into_iter())] {
+            assert!(scale.to > scale.from && !scale.ticks().is_empty(), "{scale:?}");
+        }
+    }
+}

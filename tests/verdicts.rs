@@ -1,0 +1,168 @@
+//! Verdicts as a user meets them: small files, the whole program, exit codes and what is said.
+
+mod whole_program;
+
+use std::fs;
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+use whole_program::{solve, solve_with};
+
+/// A file from an objective, lines of variables, and requirements named r1, r2, ….
+fn problem(objective: &str, variables: &str, rows: &[&str]) -> String {
+    let row = |(k, require): (usize, &&str)| format!("[[constraints]]\nname = \"r{}\"\nrequire = \"{require}\"\n", k + 1);
+    let rows: String = rows.iter().enumerate().map(row).collect();
+    format!("minimize = \"{objective}\"\n[variables]\n{variables}\n{rows}")
+}
+
+fn message(result: &Value) -> &str {
+    result["message"].as_str().unwrap()
+}
+
+fn near(value: &Value, expected: f64) -> bool {
+    value.as_f64().is_some_and(|value| (value - expected).abs() <= 1e-6 * expected.abs().max(1.0))
+}
+
+#[test]
+fn another_point_of_equal_value_makes_the_minimiser_not_unique() {
+    let box_of_three = "b = { size = 3, lower = 0.01, upper = 0.2 }";
+    let (code, result) = solve(&problem("b[1] + b[2] + b[3]", box_of_three, &["b[1] + b[2] + b[3] >= 0.2"]));
+    assert_eq!(code, 0);
+    let is = message(&result).contains("The minimiser is not unique");
+    let may_be = message(&result).contains("the minimiser may not be unique");
+    assert!(is ^ may_be, "{result}");
+    let apart = result["agreement"]["variable_difference"].as_f64().is_some_and(|apart| apart > 1e-3);
+    assert_eq!(is, apart);
+}
+
+#[test]
+fn complementarity_constraints_and_dependent_rows_are_solved() {
+    let (code, result) = solve(&problem(
+        "(x-1)^2 + (y-2)^2",
+        "x = { lower = 0, upper = 10, start = 1 }\ny = { lower = 0, upper = 10, start = 1 }",
+        &["x*y <= 0"],
+    ));
+    assert!(code == 0 && near(&result["objective"], 1.0), "{result}");
+    let rows = ["x >= 1", "y >= 1", "x + y >= 2", "x + 2*y >= 3", "x + 2*y >= 3"];
+    let (code, result) = solve(&problem("x + y", "x = { start = 3 }\ny = { start = 3 }", &rows));
+    assert!(code == 0 && near(&result["objective"], 2.0));
+    assert!(message(&result).contains("one choice of many"));
+    let rows = ["x + y == 2", "2*x + 2*y == 4", "x + y >= 2"];
+    let (code, result) = solve(&problem("x^2 + y^2", "x = { start = 5 }\ny = { start = 5 }", &rows));
+    assert!(code == 0 && near(&result["objective"], 2.0));
+}
+
+#[test]
+fn a_constant_objective_equalities_only_fixed_variables_and_no_rows_are_solved() {
+    let two = "x = { start = 0 }\ny = { start = 0 }";
+    let (code, result) = solve(&problem("1", two, &["x^2 + y^2 == 4", "x*y == 1"]));
+    assert!(code == 0 && near(&result["objective"], 1.0));
+    let (code, result) = solve(&problem("x^2", "x = { lower = 2, upper = 2 }", &["x >= 1"]));
+    assert!(code == 0 && near(&result["objective"], 4.0));
+    let (code, result) = solve(&problem("(x-1)^2", "x = {}", &[]));
+    assert!(code == 0 && near(&result["objective"], 0.0));
+    let (code, result) = solve(&problem("x + y", two, &["x^2 + y^2 == 2"]));
+    assert!(code == 0 && near(&result["objective"], -2.0), "singular Jacobian at the start");
+}
+
+#[test]
+fn where_no_multipliers_exist_the_answer_is_close_but_not_certified() {
+    let variables = "x = { lower = 0, start = 0 }\ny = { lower = 0, start = 0 }";
+    let (code, result) = solve(&problem("(x-2)^2 + y^2", variables, &["(1-x)^3 - y >= 0"]));
+    assert_eq!(code, 1, "{result}");
+    assert!(near(&result["objective"], 1.0), "{}", result["objective"]);
+    assert!(message(&result).contains("no multipliers may exist"), "{}", message(&result));
+}
+
+#[test]
+fn a_start_outside_the_domain_is_moved_and_said_so() {
+    let variables = "x = { lower = -10, upper = 10, start = -1 }\ny = { lower = -10, upper = 10, start = 3 }";
+    let (code, result) = solve(&problem("(x-5)^2 + (y+3)^2", variables, &["log(x-y) >= 0"]));
+    assert_eq!(code, 0, "{result}");
+    let warnings = result["warnings"].to_string();
+    assert!(warnings.contains("outside the domain") && warnings.contains("row r1"), "{warnings}");
+    let (code, result) = solve(&problem("x - log(x-2)", "x = { start = -1 }", &[]));
+    assert!(code == 0 && near(&result["variables"]["x"], 3.0), "{result}");
+}
+
+#[test]
+fn where_no_point_has_a_value_the_term_and_the_point_are_named() {
+    let (code, result) = solve(&problem("x + sqrt(-1 - x^2)", "x = { lower = -1, upper = 1, start = 0.5 }", &[]));
+    assert_eq!((code, result["status"].as_str()), (6, Some("invalid-value")));
+    assert!(message(&result).contains("square root of -1.25"), "{}", message(&result));
+}
+
+#[test]
+fn a_linear_conflict_names_rows_bounds_places_and_the_least_relaxation() {
+    let unit = "x = { lower = 0, upper = 1 }\ny = { lower = 0, upper = 1 }";
+    let (code, result) = solve(&problem("x + y", unit, &["x + y >= 3", "x - y <= 0.5"]));
+    assert_eq!((code, result["scope"].as_str()), (3, Some("global")));
+    let conflict = &result["conflict"];
+    assert_eq!(conflict["constraints"], serde_json::json!(["r1"]));
+    assert_eq!(conflict["bounds"], serde_json::json!(["x.upper", "y.upper"]));
+    assert_eq!(conflict["minimal"], true, "{conflict}");
+    assert!(conflict["places"][0].as_str().is_some_and(|place| place.contains("problem.toml:")), "{conflict}");
+    assert!(near(&conflict["relaxations"][0]["amount"], -1.0));
+    assert!(message(&result).contains("no point meets every limit"));
+}
+
+#[test]
+fn a_nonlinear_conflict_is_called_local() {
+    let three = "x = { lower = -3, upper = 3, start = 1 }\ny = { lower = -3, upper = 3, start = 1 }";
+    let (code, result) = solve(&problem("x", three, &["sin(x) + y^2 <= -1.5"]));
+    assert_eq!((code, result["scope"].as_str()), (3, Some("local")));
+    assert!(message(&result).contains("locally infeasible") && message(&result).contains("no point nearby"));
+    assert_eq!(result["conflict"]["minimal"], false);
+}
+
+#[test]
+fn infeasible_by_a_millionth_is_infeasible_and_by_a_billionth_is_not() {
+    let x = "x = { lower = 0, upper = 10, start = 1 }";
+    assert_eq!(solve(&problem("x", x, &["x >= 2.000001", "x <= 2"])).0, 3);
+    assert_eq!(solve(&problem("x", x, &["x >= 2.000000001", "x <= 2"])).0, 0);
+}
+
+#[test]
+fn unbounded_and_not_attained_are_told_apart_quickly_and_named() {
+    let (code, result) = solve(&problem("-x*y", "x = { lower = 0 }\ny = {}", &["y <= sqrt(x+1)"]));
+    assert_eq!((code, result["status"].as_str()), (4, Some("unbounded")));
+    assert!(result["direction"]["x"].as_f64().is_some_and(|x| x > 0.0));
+    let (code, result) = solve(&problem("1/x + y", "x = { lower = 0.1 }\ny = { lower = 1 }", &["x*y >= 1"]));
+    assert_eq!((code, result["status"].as_str()), (4, Some("not-attained")), "{result}");
+    assert_eq!(result["runaway"], serde_json::json!(["x"]));
+    let (code, result) = solve(&problem("exp(-x) + (y-1)^2", "x = {}\ny = {}", &[]));
+    assert_eq!((code, result["status"].as_str()), (4, Some("not-attained")));
+}
+
+#[test]
+fn open_bounds_of_a_geometric_program_still_give_a_lower_bound() {
+    let open = "x = { lower = 0.1 }\ny = { lower = 0.1 }";
+    let (code, result) = solve(&problem("x*y + 3*x", open, &["x*y^2 >= 4"]));
+    assert_eq!((code, result["scope"].as_str()), (0, Some("global")));
+    let (value, bound) = (result["objective"].as_f64().unwrap(), result["lower_bound"].as_f64().unwrap());
+    assert!(bound <= value && value - bound < 1e-7 * value, "{bound} for {value}");
+}
+
+#[test]
+fn many_starts_find_the_best_minimum_the_same_way_every_time() {
+    let text = problem("(x^2-1)^2 + x/4", "x = { lower = -3, upper = 3, start = 1 }", &[]);
+    let (code, first) = solve_with(&text, &["--starts", "12"]);
+    assert_eq!(code, 0);
+    let minima = first["minima"].as_array().unwrap();
+    assert_eq!(minima.len(), 2);
+    assert!(first["variables"]["x"].as_f64().unwrap() < -1.0 && minima.iter().all(|minimum| minimum["count"].as_u64() > Some(0)));
+    assert_eq!(first["minima"], solve_with(&text, &["--starts", "12"]).1["minima"]);
+}
+
+#[test]
+fn check_names_the_term_that_misses_a_class() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("problem.toml");
+    let variables = "x = { lower = 0.1, upper = 10 }\ny = { lower = 0.1, upper = 10 }";
+    fs::write(&file, problem("x*y + 1/x", variables, &["x + y >= 3"])).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_ribopt")).arg("check").arg(&file).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("class: nonlinear") && text.contains("not shown to be a geometric program: constraint r1"), "{text}");
+    assert!(text.contains("not shown to be convex: the objective"), "{text}");
+}
