@@ -182,7 +182,7 @@ mod tests {
         let dense = nalgebra::DMatrix::from_fn(n, n, entry);
         let eigenvalues = dense.clone().symmetric_eigenvalues();
         let largest = eigenvalues.amax();
-        if eigenvalues.iter().any(|value| value.abs() < 1e-6 * largest) {
+        if eigenvalues.iter().any(|value| value.abs() <= 1e-6 * largest) {
             return;
         }
         assert_eq!(inertia.positive, eigenvalues.iter().filter(|value| **value > 0.0).count());

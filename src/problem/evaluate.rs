@@ -166,7 +166,7 @@ impl<'a> Evaluation<'a> {
             Dimension::Constant(value) => Some(value),
             Dimension::Variable(j) => self.variable(j),
             // Constant links were folded where they are declared.
-            Dimension::Formula(_) if !self.at_start => None,
+            Dimension::Formula(_) if self.x.is_none() => None,
             Dimension::Formula(f) => {
                 self.named(Named::Link(s, f), self.problem.dimension_formulas.get(f as usize)?, Item::Section(s))
             }
