@@ -40,11 +40,10 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
 fn needed(problem: &Problem, section: u32, reading: &mut Reading) -> Vec<&'static str> {
     let given = sections_form(problem, section as usize).map_or(&[][..], |form| form.dimensions);
     let kind = sections::kind_of(problem.sections.form[section as usize]);
-    let derived = kind
-        .positive()
-        .iter()
-        .copied()
-        .filter(|name| !given.contains(name) && reading.property(section, name).is_some_and(|value| value.terms.len() != 1 || value.constant != 0.0));
+    let derived = kind.positive().iter().copied().filter(|name| {
+        !given.contains(name)
+            && reading.property(section, name).is_some_and(|value| value.terms.len() != 1 || value.constant != 0.0)
+    });
     let derived: Vec<&str> = derived.collect();
     given.iter().copied().chain(derived).collect()
 }

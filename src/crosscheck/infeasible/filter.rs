@@ -40,7 +40,8 @@ pub(super) fn filter(work: &Work<'_>, best: &Relaxed) -> Core {
     let members: Vec<Member> = rows.chain(work.bounds(best).into_iter().map(|(j, upper)| Member::Bound(j, upper))).collect();
     let budget = work.referee.clock.share(0.5, SECONDS);
     let is_over = || budget.deadline.is_some_and(|end| std::time::Instant::now() >= end) || work.referee.clock.is_over();
-    let lifted = Trial { work, start: &best.x, only_members: true };
+    let first = members.clone();
+    let lifted = Trial { work, start: &best.x, first: &first, only_members: true };
     let trial = match lifted.conflicts(&members) {
         Some(_) => lifted,
         None => Trial { only_members: false, ..lifted },
@@ -77,7 +78,9 @@ enum Decision {
 struct Trial<'t, 'a> {
     work: &'t Work<'a>,
     start: &'t [f64],
-    /// Bounds that are no members are lifted.
+    /// The members to begin with.
+    first: &'t [Member],
+    /// Bounds that never were members are lifted too.
     only_members: bool,
 }
 
@@ -93,7 +96,10 @@ impl Trial<'_, '_> {
             return Decision::Compatible;
         }
         let meta = self.work.model.meta();
-        let keeps = |j: usize, upper: bool| !self.only_members || members.contains(&Member::Bound(j, upper));
+        let keeps = |j: usize, upper: bool| {
+            let bound = Member::Bound(j, upper);
+            members.contains(&bound) || !(self.only_members || self.first.contains(&bound))
+        };
         let lower = (0..meta.variables()).map(|j| if keeps(j, false) { meta.lower[j] } else { f64::NEG_INFINITY });
         let upper = (0..meta.variables()).map(|j| if keeps(j, true) { meta.upper[j] } else { f64::INFINITY });
         let model = Rebounded::new(self.work.model, lower.collect(), upper.collect());
