@@ -28,7 +28,7 @@ pub struct Mistake {
 /// All mistakes of a problem file and its tables, in the order in which they stand there.
 #[derive(Debug, Clone, PartialEq, Eq, Default, thiserror::Error)]
 pub struct Mistakes {
-    /// The first [`SHOWN`] of them.
+    /// The first `SHOWN` of them.
     pub list: Vec<Mistake>,
     /// How many more there are.
     pub more: usize,

@@ -1,7 +1,7 @@
 //! The problem file (TOML) and its tables (CSV) become a checked [`Problem`].
 //!
-//! Path → text ([`load`]) → tables of fields with places ([`fields`]) → the file as declared ([`declaration`]) → names
-//! looked up and numbers computed ([`assemble`]). Mistakes are collected on the way and shown in one go.
+//! Path → text (`load`) → tables of fields with places (`fields`) → the file as declared (`declaration`) → names
+//! looked up and numbers computed (`assemble`). Mistakes are collected on the way and shown in one go.
 
 mod assemble;
 mod declaration;

@@ -193,7 +193,7 @@ impl QuadMesh {
     }
 
     /// The outgoing half-edges of `v`, counter-clockwise, one per face. A boundary vertex has one more edge: the one before
-    /// the last spoke's ([`previous`]).
+    /// the last spoke's (`previous`).
     pub fn spokes(&self, v: u32) -> impl Iterator<Item = u32> {
         let first = self.outgoing[v as usize];
         let turn = move |&h: &u32| self.twin(previous(h)).filter(|&h| h != first);

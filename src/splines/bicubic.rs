@@ -12,7 +12,7 @@ pub struct BicubicInterpolant {
 }
 
 impl BicubicInterpolant {
-    /// Through `z[i][j]` at (x[i], y[j]); x and y rise, at least four of each.
+    /// Through `z[i][j]` at `(x[i], y[j])`; x and y rise, at least four of each.
     ///
     /// ```
     /// use ribopt::splines::BicubicInterpolant;

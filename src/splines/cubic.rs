@@ -28,7 +28,7 @@ pub struct CubicSpline {
 }
 
 impl CubicSpline {
-    /// Through the points (x[i], y[i]), at least two, x rising. O(n).
+    /// Through the points `(x[i], y[i])`, at least two, x rising. O(n).
     ///
     /// ```
     /// use ribopt::splines::{CubicSpline, EndCondition};

@@ -39,7 +39,7 @@ pub fn not_a_knot(degree: usize, x: &[f64]) -> Result<KnotVector, SplineError> {
 ///
 /// # Errors
 /// Lists of wrong lengths, numbers that are not finite, abscissae that do not rise or lie outside the domain, or knots that leave a
-/// control point undetermined (Schoenberg and Whitney: basis function i must not vanish at x[i]).
+/// control point undetermined (Schoenberg and Whitney: basis function i must not vanish at `x[i]`).
 pub fn interpolate<const D: usize>(knots: KnotVector, x: &[f64], y: &[[f64; D]]) -> Result<BSplineCurve<D>, SplineError> {
     let p = knots.degree();
     rising("abscissa", x)?;

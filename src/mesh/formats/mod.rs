@@ -77,7 +77,7 @@ pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
     mesh.map_err(|cause| FormatError::In { path: path.display().to_string(), cause: Box::new(cause) })
 }
 
-/// Whether [`write`] knows the ending.
+/// Whether `write` knows the ending.
 ///
 /// # Errors
 /// Where it does not.

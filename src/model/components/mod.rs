@@ -2,10 +2,10 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`partition`] | which variables and rows belong together |
-//! | [`members`] | which elements of a rib model belong to which component |
-//! | [`local`] | one component of a rib model, evaluated densely |
-//! | [`part`] | one component as a model of its own |
+//! | `partition` | which variables and rows belong together |
+//! | `members` | which elements of a rib model belong to which component |
+//! | `local` | one component of a rib model, evaluated densely |
+//! | `part` | one component as a model of its own |
 
 mod local;
 mod members;
