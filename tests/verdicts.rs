@@ -71,7 +71,9 @@ fn where_no_multipliers_exist_the_answer_is_close_but_not_certified() {
     let variables = "x = { lower = 0, start = 0 }\ny = { lower = 0, start = 0 }";
     let (code, result) = solve(&problem("(x-2)^2 + y^2", variables, &["(1-x)^3 - y >= 0"]));
     assert_eq!(code, 1, "{result}");
-    assert!(near(&result["objective"], 1.0), "{}", result["objective"]);
+    // A violation of 1e-8 enters the objective by its third root here.
+    let off = (result["objective"].as_f64().unwrap() - 1.0).abs();
+    assert!(off < 5e-3, "{off}");
     assert!(message(&result).contains("no multipliers may exist"), "{}", message(&result));
 }
 
@@ -141,7 +143,8 @@ fn open_bounds_of_a_geometric_program_still_give_a_lower_bound() {
     let (code, result) = solve(&problem("x*y + 3*x", open, &["x*y^2 >= 4"]));
     assert_eq!((code, result["scope"].as_str()), (0, Some("global")));
     let (value, bound) = (result["objective"].as_f64().unwrap(), result["lower_bound"].as_f64().unwrap());
-    assert!(bound <= value && value - bound < 1e-7 * value, "{bound} for {value}");
+    // The answer may use the constraint tolerance: it can lie that much below the exact optimum, and so below the bound.
+    assert!(bound <= value * (1.0 + 1e-8) && value - bound < 1e-7 * value, "{bound} for {value}");
 }
 
 #[test]

@@ -203,7 +203,7 @@ pub fn is_dimension(name: &str) -> bool {
 /// ```
 /// use ribopt::sections::{kind, offers};
 /// let polygon = kind("polygon").unwrap();
-/// assert!(offers(&polygon.forms()[0], "scale") && !offers(&polygon.forms()[1], "scale"));
+/// assert!(offers(&polygon.forms()[0], "Ix") && !offers(&polygon.forms()[0], "tw"));
 /// ```
 pub fn offers(form: &Form, name: &str) -> bool {
     if form.dimensions.contains(&name) {
