@@ -41,7 +41,8 @@ impl Active<'_> {
         (0..self.bounds.len()).filter(|&j| self.bounds[j] == Side::None).collect()
     }
 
-    fn held(&self, point: &Point<'_>) -> Vec<usize> {
+    /// The rows rested on.
+    pub(super) fn held(&self, point: &Point<'_>) -> Vec<usize> {
         (0..self.rows.len()).filter(|&i| self.rows[i] != Side::None && point.slopes[i] > 0.0).collect()
     }
 }
@@ -61,9 +62,8 @@ pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result
 }
 
 /// The whole test.
-pub(super) fn examine(point: &Point<'_>, active: &Active<'_>) -> Result<Curvature, EvaluationError> {
-    let hessian = Hessian::of(point, active.multipliers)?;
-    Ok(judge(point, active, &hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true }))
+pub(super) fn examine(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Curvature {
+    judge(point, active, hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true })
 }
 
 fn judge(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Result<Curvature, FactorizationError> {
@@ -135,7 +135,7 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
-    fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
+    pub(super) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let part = |weight: f64, keep: &dyn Fn(f64) -> bool| {
             let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();

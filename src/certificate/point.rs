@@ -58,15 +58,19 @@ impl<'a> Point<'a> {
         origin.model.jacobian(x, &mut jacobian)?;
         let d = origin.variable_scales(x);
         let sigma = largest(&gradient, &d).max(origin.gradient.as_ref().map_or(0.0, |start| largest(start, &d)));
-        let slope = |i| {
-            let pattern = &meta.jacobian;
-            pattern.range(i).fold(0.0, |most: f64, at| most.max((jacobian[at] * d[pattern.columns[at] as usize]).abs()))
-        };
-        let slopes = (0..meta.rows()).map(slope).collect();
+        let slopes = slopes(meta, &jacobian, &d);
         Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sigma, slopes })
     }
 
-    pub(super) fn meta(&self) -> &Meta {
+    /// The same with d_j = |x_j| wherever that is not 0: for what happens in proportion.
+    pub(super) fn in_own_sizes(&self) -> Point<'a> {
+        let d: Vec<f64> = self.x.iter().zip(&self.d).map(|(x, &d)| if *x == 0.0 { d } else { x.abs() }).collect();
+        let slopes = slopes(self.meta(), &self.jacobian, &d);
+        let (gradient, rows, jacobian) = (self.gradient.clone(), self.rows.clone(), self.jacobian.clone());
+        Point { d, slopes, gradient, rows, jacobian, ..*self }
+    }
+
+    pub(super) fn meta(&self) -> &'a Meta {
         self.origin.meta()
     }
 
@@ -138,6 +142,13 @@ fn relative_violation(value: f64, lower: f64, upper: f64, slope: f64) -> f64 {
 
 fn largest(gradient: &[f64], d: &[f64]) -> f64 {
     gradient.iter().zip(d).fold(0.0, |most, (g, d)| most.max((g * d).abs()))
+}
+
+/// ‖D∇c_i‖∞, row by row.
+fn slopes(meta: &Meta, jacobian: &[f64], d: &[f64]) -> Vec<f64> {
+    let pattern = &meta.jacobian;
+    let slope = |i| pattern.range(i).fold(0.0, |most: f64, at| most.max((jacobian[at] * d[pattern.columns[at] as usize]).abs()));
+    (0..meta.rows()).map(slope).collect()
 }
 
 fn check_point(origin: &Origin<'_>, x: &[f64]) -> Result<(), EvaluationError> {

@@ -3,7 +3,8 @@
 use super::Answer;
 use super::attempt::{Contestant, Referee};
 use super::seeds::Seeds;
-use crate::backends::Termination;
+use crate::backends::{Iteration, Termination};
+use crate::model::Budget;
 
 const ESCAPES: usize = 5;
 
@@ -31,7 +32,19 @@ pub(super) fn cross_start(referee: &Referee<'_>, contestant: Contestant<'_>, ans
 /// Starts a backend from a point another one holds.
 pub(super) fn retry(referee: &Referee<'_>, contestant: Contestant<'_>, answer: &mut Answer, start: &[f64], remark: &str) {
     let budget = referee.clock.share(0.5, f64::INFINITY);
-    let mut next = referee.attempt(contestant, start, None, budget, &mut |_| {});
+    again(referee, contestant, answer, (start, budget), &mut |_| {}, remark);
+}
+
+/// Starts a backend again from a point, with a budget; the better answer stays.
+pub(super) fn again(
+    referee: &Referee<'_>,
+    contestant: Contestant<'_>,
+    answer: &mut Answer,
+    (start, budget): (&[f64], Budget<'_>),
+    observer: &mut dyn FnMut(&Iteration<'_>),
+    remark: &str,
+) {
+    let mut next = referee.attempt(contestant, start, None, budget, observer);
     if referee.is_better(&next, answer) {
         add_effort(&mut next, answer);
         next.remarks = std::mem::take(&mut answer.remarks);

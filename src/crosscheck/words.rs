@@ -39,6 +39,14 @@ pub(super) fn certified(outcome: &mut Outcome) {
     outcome.message = message;
 }
 
+pub(super) fn starts_left_out(outcome: &mut Outcome, run: usize, wanted: usize) {
+    outcome.message.push_str(&format!(" Only {run} of {wanted} starts were run before the end."));
+}
+
+pub(super) fn interrupted(outcome: &mut Outcome) {
+    outcome.message = format!("Interrupted; what was found before is certified. {}", outcome.message);
+}
+
 pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
     let names = variables(referee, &outcome.runaway);
     if outcome.status == Status::Unbounded {
@@ -121,7 +129,7 @@ fn variables(referee: &Referee<'_>, places: &[usize]) -> String {
     list(&places.iter().map(|&j| referee.task.model.variable_name(j)).collect::<Vec<_>>())
 }
 
-fn list(names: &[String]) -> String {
+pub(super) fn list(names: &[String]) -> String {
     let mut shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {
         shown.push_str(&format!(" and {} more", names.len() - SHOWN));
