@@ -58,10 +58,12 @@ impl<'a> Kkt<'a> {
         let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
         let mut rows = Vec::new();
         for (k, &i) in held.iter().enumerate() {
+            let entry = |at: usize| (point.jacobian[at] * point.sizes[pattern.columns[at] as usize]).abs();
+            let slope = pattern.range(i).map(entry).fold(0.0, f64::max);
             for at in pattern.range(i) {
                 let j = pattern.columns[at] as usize;
                 if place[j] != u32::MAX {
-                    rows.push((k as u32, place[j], point.jacobian[at] * point.d[j] / point.slopes[i]));
+                    rows.push((k as u32, place[j], point.jacobian[at] * point.sizes[j] / slope));
                 }
             }
         }
@@ -131,7 +133,7 @@ impl<'a> Kkt<'a> {
     fn in_user_variables(&self, v: &[f64]) -> Vec<f64> {
         let mut direction = vec![0.0; self.point.meta().variables()];
         for (&j, v) in self.free.iter().zip(v) {
-            direction[j] = v * self.point.d[j];
+            direction[j] = v * self.point.sizes[j];
         }
         direction
     }
