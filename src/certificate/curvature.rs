@@ -90,7 +90,7 @@ fn one_sided(
     let weak = 1e-6 * point.scale();
     let is_weak_bound = |&j: &usize| {
         let one_sided = matches!(active.bounds[j], Side::Lower | Side::Upper);
-        one_sided && (active.multipliers.bounds[j] * point.d[j]).abs() <= weak
+        one_sided && (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak
     };
     let is_weak_row =
         |&&i: &&usize| active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak;
@@ -145,7 +145,7 @@ impl Hessian {
         let parts = [part(1.0, &|_| false)?, part(0.0, &|y| y > 0.0)?, part(0.0, &|y| y < 0.0)?];
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
         for (at, (row, column)) in pattern.iter().enumerate() {
-            let scale = point.d[row] * point.d[column] / point.scale();
+            let scale = point.sizes[row] * point.sizes[column] / point.scale();
             let magnitude: f64 = parts.iter().map(|part| (part[at] * scale).abs()).sum();
             hessian.values[at] = parts.iter().map(|part| part[at] * scale).sum();
             hessian.size[row] += magnitude;

@@ -50,7 +50,7 @@ pub(super) fn find(
 
 /// Free variables and those on bounds that hardly push.
 pub(super) fn loose_variables(point: &Point<'_>, active: &Active<'_>) -> Vec<usize> {
-    let push = |j: usize| (active.multipliers.bounds[j] * point.d[j]).abs();
+    let push = |j: usize| (active.multipliers.bounds[j] * point.sizes[j]).abs();
     let is_loose = |&j: &usize| match active.bounds[j] {
         Side::None => true,
         Side::Equal => false,
@@ -115,7 +115,7 @@ impl Walk<'_, '_> {
             let step = self.kkt.solve(&right).ok()?;
             let mut longest = 0.0f64;
             for (&j, step) in self.free.iter().zip(&step) {
-                x[j] += step * point.d[j];
+                x[j] += step * point.sizes[j];
                 longest = longest.max(step.abs());
             }
             clamp(&mut x);
@@ -138,8 +138,9 @@ impl Walk<'_, '_> {
         model.constraints(x, &mut rows).ok()?;
         model.jacobian(x, &mut jacobian).ok()?;
         meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
-        let slopes = self.free.iter().map(|&j| -total[j] * point.d[j] / point.scale());
-        let lacks = self.held.iter().map(|&i| (point.row_limit(i, self.multipliers.rows[i]) - rows[i]) / point.slopes[i]);
+        let slopes = self.free.iter().map(|&j| -total[j] * point.sizes[j] / point.scale());
+        let lack = |(k, &i): (usize, &usize)| (point.row_limit(i, self.multipliers.rows[i]) - rows[i]) / self.kkt.slope(k);
+        let lacks = self.held.iter().enumerate().map(lack);
         Some(slopes.chain(lacks).collect())
     }
 }

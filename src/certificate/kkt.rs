@@ -26,6 +26,8 @@ pub(super) struct Kkt<'a> {
     rows: Vec<(u32, u32, f64)>,
     /// Magnitudes of the rows of S.
     size: Vec<f64>,
+    /// What each row of A was divided by.
+    slopes: Vec<f64>,
     held: usize,
     matrix: Symmetric,
 }
@@ -59,12 +61,15 @@ impl<'a> Kkt<'a> {
         size: Vec<f64>,
     ) -> Result<Self, FactorizationError> {
         let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
-        let mut rows = Vec::new();
+        let (mut rows, mut slopes) = (Vec::new(), Vec::with_capacity(held.len()));
         for (k, &i) in held.iter().enumerate() {
+            let entry = |at: usize| (point.jacobian[at] * point.sizes[pattern.columns[at] as usize]).abs();
+            let slope = pattern.range(i).map(entry).fold(0.0, f64::max);
+            slopes.push(slope);
             for at in pattern.range(i) {
                 let j = pattern.columns[at] as usize;
                 if place[j] != u32::MAX {
-                    rows.push((k as u32, place[j], point.jacobian[at] * point.d[j] / point.slopes[i]));
+                    rows.push((k as u32, place[j], point.jacobian[at] * point.sizes[j] / slope));
                 }
             }
         }
@@ -73,7 +78,7 @@ impl<'a> Kkt<'a> {
         positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
         positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
         let matrix = Symmetric::new(free.len() + held.len(), &positions)?;
-        Ok(Kkt { point, free, hessian, rows, size, held: held.len(), matrix })
+        Ok(Kkt { point, free, hessian, rows, size, slopes, held: held.len(), matrix })
     }
 
     /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
@@ -170,6 +175,11 @@ impl<'a> Kkt<'a> {
         self.matrix.factor(entries).map(|_| ())
     }
 
+    /// What row k of A was divided by.
+    pub(super) fn slope(&self, k: usize) -> f64 {
+        self.slopes[k]
+    }
+
     /// Solves with the factors found last: over the free variables, in their scales, then the rows.
     pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         self.matrix.solve(right)
@@ -193,7 +203,7 @@ impl<'a> Kkt<'a> {
     fn in_user_variables(&self, v: &[f64]) -> Vec<f64> {
         let mut direction = vec![0.0; self.point.meta().variables()];
         for (&j, v) in self.free.iter().zip(v) {
-            direction[j] = v * self.point.d[j];
+            direction[j] = v * self.point.sizes[j];
         }
         direction
     }

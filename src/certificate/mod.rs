@@ -157,7 +157,7 @@ fn first_order(point: &Point<'_>, multipliers: &Multipliers, tolerances: &Tolera
         point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
     };
     let bound_side = |j: usize| {
-        let d = point.d[j];
+        let d = point.sizes[j];
         point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
     };
     Certificate {
@@ -221,10 +221,7 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    // A variable that is zero but for rounding has no size of its own.
-    let largest = point.d.iter().fold(0.0, |most: f64, d| most.max(*d));
-    let size = |d: f64| if d < f64::EPSILON * largest { largest } else { d };
-    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * size(d) / point.sigma))
+    total.iter().zip(&point.sizes).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * d / point.sigma))
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

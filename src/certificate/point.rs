@@ -3,6 +3,9 @@
 use crate::certificate::Side;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 
+/// Less than this share of the largest variable is rounding where the start is zero.
+const NEGLIGIBLE: f64 = 1e-8;
+
 /// A model with what does not depend on the point: its start's gradient.
 pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
@@ -40,6 +43,8 @@ pub(super) struct Point<'a> {
     pub(super) jacobian: Vec<f64>,
     /// d_j
     pub(super) d: Vec<f64>,
+    /// d_j, but 1 for a variable that starts at zero and still is, but for rounding: what is left has no size of its own.
+    pub(super) sizes: Vec<f64>,
     /// max(‖D∇f(x)‖∞, ‖D∇f(start)‖∞)
     pub(super) sigma: f64,
     /// ‖D∇c_i(x)‖∞
@@ -57,9 +62,10 @@ impl<'a> Point<'a> {
         let mut jacobian = vec![0.0; meta.jacobian.len()];
         origin.model.jacobian(x, &mut jacobian)?;
         let d = origin.variable_scales(x);
+        let sizes = sizes(&d, &meta.start);
         let sigma = largest(&gradient, &d).max(origin.gradient.as_ref().map_or(0.0, |start| largest(start, &d)));
         let slopes = slopes(meta, &jacobian, &d);
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sigma, slopes })
+        Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sizes, sigma, slopes })
     }
 
     /// The same with d_j = |x_j| wherever that is not 0: for what happens in proportion.
@@ -67,7 +73,7 @@ impl<'a> Point<'a> {
         let d: Vec<f64> = self.x.iter().zip(&self.d).map(|(x, &d)| if *x == 0.0 { d } else { x.abs() }).collect();
         let slopes = slopes(self.meta(), &self.jacobian, &d);
         let (gradient, rows, jacobian) = (self.gradient.clone(), self.rows.clone(), self.jacobian.clone());
-        Point { d, slopes, gradient, rows, jacobian, ..*self }
+        Point { sizes: d.clone(), d, slopes, gradient, rows, jacobian, ..*self }
     }
 
     pub(super) fn meta(&self) -> &'a Meta {
@@ -138,6 +144,11 @@ pub(super) fn side(value: f64, lower: f64, upper: f64, multiplier: f64, touch: f
 fn relative_violation(value: f64, lower: f64, upper: f64, slope: f64) -> f64 {
     let (violation, limit) = if value < lower { (lower - value, lower) } else { (value - upper, upper) };
     if violation > 0.0 { (violation / limit.abs().max(slope).max(f64::MIN_POSITIVE)).min(f64::MAX) } else { 0.0 }
+}
+
+fn sizes(d: &[f64], start: &[f64]) -> Vec<f64> {
+    let negligible = NEGLIGIBLE * d.iter().fold(0.0, |most: f64, d| most.max(*d));
+    d.iter().zip(start).map(|(&d, &start)| if start == 0.0 && d < negligible { 1.0 } else { d }).collect()
 }
 
 fn largest(gradient: &[f64], d: &[f64]) -> f64 {

@@ -74,12 +74,12 @@ pub(super) fn step_back(point: &Point<'_>, wanted: &dyn Fn(&Point<'_>, usize) ->
     let held: Vec<usize> = (0..meta.rows()).filter(is_held).collect();
     let mut kkt = Kkt::without_hessian(point, &free, &held).ok()?;
     kkt.factor_projection().ok()?;
-    let lack = |&i: &usize| (nearest_limit(point, i) - point.rows[i]) / point.slopes[i];
-    let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().map(lack)).collect();
+    let lack = |(k, &i): (usize, &usize)| (nearest_limit(point, i) - point.rows[i]) / kkt.slope(k);
+    let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().enumerate().map(lack)).collect();
     let step = kkt.solve(&right).ok()?;
     let mut x = point.x.to_vec();
     for (&j, step) in free.iter().zip(step) {
-        x[j] = (x[j] + step * point.d[j]).max(meta.lower[j]).min(meta.upper[j]);
+        x[j] = (x[j] + step * point.sizes[j]).max(meta.lower[j]).min(meta.upper[j]);
     }
     Some(x)
 }

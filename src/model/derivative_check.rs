@@ -151,6 +151,13 @@ fn compare(
     }
 }
 
+/// The largest step of 0.02·|x| and its quarters that has values on both sides, and these values.
+fn first_step(x: f64, shifted: &impl Fn(f64) -> Option<Vec<f64>>) -> Option<(f64, Vec<f64>, Vec<f64>)> {
+    let largest = 0.02 * x.abs().max(1e-2);
+    let steps = std::iter::successors(Some(largest), |step| Some(step / 4.0)).take(21);
+    steps.into_iter().find_map(|step| Some((step, shifted(-step)?, shifted(step)?)))
+}
+
 /// Derivatives of all components in variable j, their estimated errors, and the components' sizes.
 /// Steps shrink until the model has values on both sides; `None` where it never has.
 fn ridders(x: &[f64], j: usize, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
@@ -160,16 +167,7 @@ fn ridders(x: &[f64], j: usize, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Optio
         point[j] += by;
         f(&point)
     };
-    let mut step = 0.02 * x[j].abs().max(1e-2);
-    let (mut left, mut right) = (shifted(-step), shifted(step));
-    for _ in 0..20 {
-        if left.is_some() && right.is_some() {
-            break;
-        }
-        step /= 4.0;
-        (left, right) = (shifted(-step), shifted(step));
-    }
-    let (mut left, mut right) = (left?, right?);
+    let (mut step, mut left, mut right) = first_step(x[j], &shifted)?;
     let size: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l.abs().max(r.abs())).collect();
     let mut best = vec![f64::NAN; left.len()];
     let mut noise = vec![f64::INFINITY; left.len()];

@@ -18,12 +18,11 @@ mod frame;
 mod newton;
 mod step;
 
-use argmin::argmin_error;
 use argmin::core::{Error, KV, Problem, Solver, State};
 use rayon::prelude::*;
 
 use super::interior_point;
-use super::state::{Conclusion, NlpState, Point};
+use super::state::{Conclusion, NlpState, Point, given};
 use crate::backends::Termination;
 use crate::model::components::Components as Pieces;
 use crate::model::{Budget, EvaluationError, Evaluator, Model};
@@ -191,8 +190,4 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for Components<'a> {
         let answer = self.answer(model);
         Ok((state.conclude(self.conclusion(), Some(answer)), None))
     }
-}
-
-fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
-    problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }

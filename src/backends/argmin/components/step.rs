@@ -8,6 +8,7 @@ use super::barrier::{self, distances, force};
 use super::crossover::Crossover;
 use super::frame::Frame;
 use super::newton::Newton;
+use crate::backends::argmin::interior_point::pushed;
 
 /// First and last barrier parameter, and how it falls.
 const FIRST_BARRIER: f64 = 0.1;
@@ -71,7 +72,7 @@ impl<'m> Stepper<'m> {
         piece.row_scale.fill(1.0);
         frame.turn_to(piece);
         for (at, start) in frame.start(piece.component).enumerate() {
-            piece.w[at] = barrier::pushed(start, frame.lower[at], frame.upper[at], PUSH);
+            piece.w[at] = pushed(start, frame.lower[at], frame.upper[at], PUSH);
         }
         if !frame.first_order(piece.w, piece.header, piece.row_scale) {
             return false;
@@ -81,7 +82,7 @@ impl<'m> Stepper<'m> {
             return false;
         }
         for at in frame.n..frame.n + frame.m {
-            piece.w[at] = barrier::pushed(frame.rows[at - frame.n], frame.lower[at], frame.upper[at], PUSH);
+            piece.w[at] = pushed(frame.rows[at - frame.n], frame.lower[at], frame.upper[at], PUSH);
         }
         piece.header.mu = FIRST_BARRIER;
         for (at, &w) in piece.w.iter().enumerate() {
