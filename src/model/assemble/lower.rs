@@ -6,6 +6,7 @@ use std::rc::Rc;
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
+use crate::geometry::polygon::Ring;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::{self, Law};
@@ -314,7 +315,7 @@ impl<'a> Lowering<'a> {
         nodes.iter().skip(1).fold(first, |folded, &node| self.graph.binary(op, folded, node))
     }
 
-    fn given<'b>(&self, section: u32, dimensions: &'b [NodeId], outline: &'b [[f64; 2]]) -> Given<'b> {
+    fn given<'b>(&self, section: u32, dimensions: &'b [NodeId], outline: &'b [Ring]) -> Given<'b> {
         Given { form: sections::form(self.problem.sections.form[section as usize]), dimensions, outline }
     }
 
