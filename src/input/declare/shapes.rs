@@ -34,9 +34,15 @@ fn outline(fields: &mut Fields, reader: &mut Reader) -> Option<PointsEntry> {
 
 /// `[[[x, y], …], …]`; `None` after a mistake.
 fn rings(field: &Field, reader: &mut Reader) -> Option<Vec<Vec<[Scalar; 2]>>> {
-    let Some(items) = field.items() else { return field.expected("a list of rings: [[[1, 1], [2, 1], [2, 2]]]", reader) };
+    let items = field.items().filter(|items| items.iter().all(is_ring));
+    let Some(items) = items else { return field.expected("a list of rings: [[[1, 1], [2, 1], [2, 2]]]", reader) };
     let read: Vec<Option<_>> = items.iter().map(|item| points(item, reader)).collect();
     read.into_iter().collect()
+}
+
+/// A list of lists, or what only a look at its points can refuse.
+fn is_ring(field: &Field) -> bool {
+    field.items().is_some_and(|points| points.iter().all(|point| point.items().is_some()))
 }
 
 /// `[[x, y], …]`; `None` after a mistake.
