@@ -179,8 +179,8 @@ pub struct Section {
     /// Its dimensions, as in b=0.2,h=0.5
     #[arg(long, value_name = "NAME=NUMBER,…", requires = "kind")]
     pub dims: Option<String>,
-    /// Points of a kind drawn by points, as in "0 0; 0.4 0; 0.4 0.3"
-    #[arg(long, value_name = "X Y; …", requires = "kind", allow_hyphen_values = true)]
+    /// Points of a kind drawn by points, as in "0 0; 0.4 0; 0.4 0.3"; holes of a polygon after a bar: "… | 0.1 0.1; …"
+    #[arg(long, value_name = "X Y; … | …", requires = "kind", allow_hyphen_values = true)]
     pub points: Option<String>,
     /// Print JSON
     #[arg(long)]

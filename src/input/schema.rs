@@ -104,6 +104,10 @@ fn section() -> Value {
         if kind.has_outline() {
             properties.insert("points".into(), points());
         }
+        if kind.takes_holes() {
+            let holes = json!({ "type": "array", "items": points(), "description": "Rings of points inside the outer one." });
+            properties.insert("holes".into(), holes);
+        }
         let names = form.dimensions.iter().map(|name| list_name(name).unwrap_or(name));
         properties.extend(form.dimensions.iter().map(|name| match list_name(name) {
             Some(list) => (list.to_owned(), json!({ "type": "array", "items": dimension, "minItems": 1 })),

@@ -6,6 +6,7 @@ use super::build::{monomial, symmetric_modulus};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
+use crate::geometry::polygon::Ring;
 
 /// The doubly symmetric H (or I) beam.
 pub struct HBeam;
@@ -156,7 +157,7 @@ impl Kind for HBeam {
         !form.dimensions.iter().any(|name| ["h", "h2"].contains(name))
     }
 
-    fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], _: f64) -> Vec<Ring> {
         let half = |name| evaluate(self, form, given, outline, name).map(|value| value / 2.0);
         let (Some(w), Some(y), Some(x), Some(top)) = (half("tw"), half("hw"), half("b"), half("h")) else { return Vec::new() };
         vec![vec![

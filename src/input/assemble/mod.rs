@@ -24,6 +24,7 @@ use super::declaration::{Declaration, Name};
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use crate::expression::ast::Collection;
+use crate::geometry::polygon::Ring;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
 use crate::problem::{Problem, Sense};
@@ -53,7 +54,7 @@ pub(super) struct Assembly<'a> {
     texts: Vec<Written>,
     text_numbers: HashMap<String, u32>,
     /// Points of tables' cells by their text, each kept once.
-    points: HashMap<String, Option<Arc<Vec<[f64; 2]>>>>,
+    points: HashMap<String, Option<Arc<Vec<Ring>>>>,
     used: Vec<(Collection, u32)>,
 }
 

@@ -16,7 +16,7 @@ use super::{NONE, PolygonMesh};
 
 /// A closed curve of a section's boundary: x across the rib, y out of the surface, about the section's origin. Outer rings
 /// run counter-clockwise, holes clockwise.
-pub type Ring = Vec<[f64; 2]>;
+pub type Ring = crate::geometry::polygon::Ring;
 
 /// One sized rib.
 #[derive(Debug, Clone, PartialEq)]
