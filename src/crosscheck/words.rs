@@ -93,7 +93,7 @@ pub(super) fn no_feasible_point(outcome: &mut Outcome) {
     outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
 }
 
-pub(super) fn undecided(outcome: &mut Outcome) {
+pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
     let reasons: Vec<_> = outcome.answers.iter().map(|answer| format!("{}: {}", answer.backend, why(answer))).collect();
     let (lead, remedy) = match outcome.status {
         Status::Interrupted => ("Interrupted; this is the best point so far.", None),
@@ -108,6 +108,13 @@ pub(super) fn undecided(outcome: &mut Outcome) {
     };
     outcome.message = format!("{lead} {}.", reasons.join("; "));
     outcome.remedy = remedy.map(String::from);
+    let vanishing = referee.task.substitution.map_or_else(Vec::new, |other| other.vanishing(&outcome.x));
+    if outcome.status == Status::Uncertified && !vanishing.is_empty() {
+        let difference = |&(a, b): &(usize, usize)| variables(referee, &[a, b]).replace(", ", " − ");
+        let names = list(&vanishing.iter().map(difference).collect::<Vec<_>>());
+        outcome.message.push_str(&format!(" The best answer lets {names} vanish, where the objective has no slope to prove it by."));
+        outcome.remedy = Some(format!("keep {names} above a least value by a constraint"));
+    }
 }
 
 /// Why an answer is not certified.
