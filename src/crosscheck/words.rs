@@ -112,7 +112,9 @@ pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
     if outcome.status == Status::Uncertified && !vanishing.is_empty() {
         let difference = |&(a, b): &(usize, usize)| variables(referee, &[a, b]).replace(", ", " − ");
         let names = list(&vanishing.iter().map(difference).collect::<Vec<_>>());
-        outcome.message.push_str(&format!(" The best answer lets {names} vanish, where the objective has no slope to prove it by."));
+        outcome
+            .message
+            .push_str(&format!(" The best answer lets {names} vanish, where the objective has no slope to prove it by."));
         outcome.remedy = Some(format!("keep {names} above a least value by a constraint"));
     }
 }

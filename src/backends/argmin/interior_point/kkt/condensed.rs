@@ -187,7 +187,9 @@ fn of_products(system: &System, condensed: &[usize]) -> impl Iterator<Item = (u3
 }
 
 fn of_kept(system: &System, kept: &[usize]) -> impl Iterator<Item = (u32, u32)> {
-    let row = move |(k, &i): (usize, &usize)| system.jacobian.row(i).iter().map(move |&column| ((system.primal.len() + k) as u32, column));
+    let row = move |(k, &i): (usize, &usize)| {
+        system.jacobian.row(i).iter().map(move |&column| ((system.primal.len() + k) as u32, column))
+    };
     kept.iter().enumerate().flat_map(row)
 }
 
