@@ -135,6 +135,14 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
+    /// The same, its largest row of magnitudes being 1.
+    pub(super) fn normalised(&self) -> Hessian {
+        let largest = self.size.iter().fold(0.0, |most: f64, size| most.max(*size));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let share = |all: &[f64]| all.iter().map(|value| value / unit).collect();
+        Hessian { values: share(&self.values), size: share(&self.size) }
+    }
+
     pub(super) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let part = |weight: f64, keep: &dyn Fn(f64) -> bool| {

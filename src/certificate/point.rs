@@ -11,6 +11,8 @@ pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
     /// ∇f(start); `None` where the start has no gradient.
     gradient: Option<Vec<f64>>,
+    /// ‖D∇c_i(start)‖∞; `None` where the start has no Jacobian.
+    pub(super) slopes: Option<Vec<f64>>,
 }
 
 impl<'a> Origin<'a> {
@@ -19,7 +21,11 @@ impl<'a> Origin<'a> {
         let start = &model.meta().start;
         let mut gradient = vec![0.0; start.len()];
         let known = model.gradient(start, &mut gradient).is_ok();
-        Origin { gradient: known.then_some(gradient), model }
+        let mut jacobian = vec![0.0; model.meta().jacobian.len()];
+        let has_jacobian = model.jacobian(start, &mut jacobian).is_ok();
+        let sizes: Vec<f64> = start.iter().map(|start| if *start == 0.0 { 1.0 } else { start.abs() }).collect();
+        let slopes = has_jacobian.then(|| slopes(model.meta(), &jacobian, &sizes));
+        Origin { gradient: known.then_some(gradient), slopes, model }
     }
 
     pub(super) fn meta(&self) -> &Meta {

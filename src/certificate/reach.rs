@@ -1,12 +1,15 @@
 //! The way back to the limits, and points that meet them only because they are far away: SPEC §4 measures a violation by the
 //! variables' own sizes, which grow with them, so that even x + y = 1 and x + y = 1.000001 are both met once x and −y are large
-//! enough. Such a point counts as feasible only where one that meets the rows in the start's own measure lies beside it.
+//! enough; and by a row's slope, which grows without end where a root ends. Such a point counts as feasible only where one that
+//! meets the rows in the start's own measure lies beside it.
 
 use super::kkt::Kkt;
 use super::point::Point;
 
 /// A variable this many times its size at the start is far away.
 const FAR: f64 = 10.0;
+/// A row this many times as steep as at the start measures nothing.
+const STEEP: f64 = 1e3;
 /// Newton steps.
 const STEPS: usize = 6;
 /// How far, relative to the variables' sizes, a point beside it may lie.
@@ -17,7 +20,10 @@ const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 /// The worst relative violation of a row in the measure of the start, where that is more than `tolerance` and cannot be taken
 /// off nearby; else `None`. The point meets all rows in its own measure.
 pub(super) fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
-    let near = near_scales(point)?;
+    if (0..point.rows.len()).all(|i| point.row_violation(i) == 0.0) {
+        return None;
+    }
+    let near = near_scales(point);
     let worst = worst(point, &near);
     if worst <= tolerance {
         return None;
@@ -39,14 +45,13 @@ pub(super) fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     Some(worst)
 }
 
-/// The variables' sizes with those far away held back; `None` where none is.
-fn near_scales(point: &Point<'_>) -> Option<Vec<f64>> {
+/// The variables' sizes with those far away held back.
+fn near_scales(point: &Point<'_>) -> Vec<f64> {
     let size = |start: f64| if start == 0.0 { 1.0 } else { start.abs() };
-    let near: Vec<f64> = point.d.iter().zip(&point.meta().start).map(|(d, &start)| d.min(FAR * size(start))).collect();
-    near.iter().zip(&point.d).any(|(near, d)| near < d).then_some(near)
+    point.d.iter().zip(&point.meta().start).map(|(d, &start)| d.min(FAR * size(start))).collect()
 }
 
-/// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), less what rounding explains.
+/// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), slopes held back too, less what rounding explains.
 fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
     let meta = point.meta();
     let one = |i: usize| {
@@ -61,6 +66,8 @@ fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
             slope = slope.max((point.jacobian[at] * near[j]).abs());
             terms += (point.jacobian[at] * point.x[j]).abs();
         }
+        let steepest = point.origin.slopes.as_ref().map_or(f64::INFINITY, |slopes| STEEP * slopes[i]);
+        let slope = if steepest > 0.0 { slope.min(steepest) } else { slope };
         (violation - ROUNDINGS * terms).max(0.0) / limit.abs().max(slope).max(f64::MIN_POSITIVE)
     };
     (0..point.rows.len()).map(one).fold(0.0, f64::max)

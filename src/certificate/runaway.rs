@@ -27,10 +27,9 @@ pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, tolerances: &Tol
     let mut far: Vec<(f64, usize)> = (0..point.x.len()).filter_map(|j| travelled(point, j).map(|way| (way, j))).collect();
     far.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let all: Vec<usize> = far.iter().map(|&(_, j)| j).collect();
-    let way = far.first().map_or(0.0, |f| f.0);
     let mut found: Vec<usize> =
-        far.iter().take(TRIED).filter(|&&(way, j)| way > BEYOND || ray.runs_off(&[j])).map(|f| f.1).collect();
-    if found.is_empty() && all.len() > 1 && (way > BEYOND || ray.runs_off(&all)) {
+        far.iter().take(TRIED).filter(|&&(way, j)| is_beyond(point, way, j) || ray.runs_off(&[j])).map(|f| f.1).collect();
+    if found.is_empty() && all.len() > 1 && ray.runs_off(&all) {
         found = all;
     }
     if found.is_empty() {
@@ -71,6 +70,11 @@ fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
     let level = 64.0 * f64::EPSILON * point.objective.abs();
     let never_rises = [0.1, 0.01, 1e-3].into_iter().all(|share| value(share).is_some_and(|f| f <= point.objective + level));
     if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
+}
+
+/// So far out, and far from where anything is of a size of one, that what lies further on overflows.
+fn is_beyond(point: &Point<'_>, way: f64, j: usize) -> bool {
+    way > BEYOND && point.x[j].abs() > BEYOND
 }
 
 /// How many times its own size variable j has moved towards an open bound; `None` where it has not gone far.

@@ -28,7 +28,9 @@ pub(super) fn answers(referee: &Referee<'_>, contestants: &[Contestant<'_>], obs
         }
         answers.push(answer);
     }
-    for (left, &k) in (1..=gave_way.len()).rev().zip(&gave_way) {
+    // Where nobody has met the rows, the elastic phase may know why: it comes first.
+    let worth_going_on = answers.len() == gave_way.len() || answers.iter().any(|answer| referee.is_feasible(answer));
+    for (left, &k) in (1..=gave_way.len()).rev().zip(&gave_way).filter(|_| worth_going_on) {
         let budget = referee.clock.share(0.9 / left as f64, grace(&answers).unwrap_or(f64::INFINITY));
         let start = answers[k].solution.x.clone();
         let mut observer = observers(k, contestants[k].algorithm);

@@ -22,6 +22,7 @@ mod words;
 
 use crate::backends::{Backend, Termination};
 use attempt::{Contestant, Referee};
+use diverging::{Fall, Ray};
 use infeasible::Elasticity;
 pub use start::MovedStart;
 pub use types::{Agreement, Answer, Conflict, Minimum, ObserverFactory, Outcome, Status, Task};
@@ -130,15 +131,34 @@ fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: 
     }
 }
 
-fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: Vec<Answer>) -> Outcome {
-    let Some(ray) = diverging::examine(referee, contestants, &answers) else {
-        return verdict::undecided(referee, answers);
-    };
+fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
+    let ray = diverging::examine(referee, contestants, &answers);
     // So far out rows that contradict one another seem to be met.
-    if diverging::is_far_out(referee, &ray.from)
+    if let Some(ray) = &ray
+        && diverging::is_far_out(referee, &ray.from)
         && let Some(Elasticity::Infeasible { x, conflict }) = infeasible::examine(referee, contestants, referee.task.start)
     {
         return verdict::infeasible(referee, answers, x, conflict);
     }
-    verdict::diverging(referee, answers, ray)
+    if let Some(value) = settling(referee, &answers, ray.as_ref())
+        && let Some((k, mut answer)) = multistart::attained(referee, contestants, value)
+    {
+        answer.remarks.push("found from another start, as from the one given the variables run off".into());
+        answers[k] = answer;
+        return verdict::certified(referee, answers);
+    }
+    match ray {
+        Some(ray) => verdict::diverging(referee, answers, ray),
+        None => verdict::undecided(referee, answers),
+    }
+}
+
+/// The value the objective settles at as variables run off, where that is what was found; convex problems have no other minima.
+fn settling(referee: &Referee<'_>, answers: &[Answer], ray: Option<&Ray>) -> Option<f64> {
+    if referee.task.class.is_global() || ray.is_some_and(|ray| ray.fall == Fall::Endless) {
+        return None;
+    }
+    let runs_off = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|own| ray.is_some() || !own.runaway.is_empty());
+    let feasible = answers.iter().filter(|answer| referee.is_feasible(answer)).filter(runs_off);
+    feasible.filter_map(|answer| answer.objective).reduce(f64::min)
 }
