@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::RunError;
 use crate::input;
 use crate::model::differences::Differences;
-use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify};
+use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
 use crate::report::result::Mistake;
@@ -116,14 +116,20 @@ impl Subject {
         if self.problem.ribs.names.is_empty() {
             return None;
         }
+        let totals = volumes(&self.problem, x, [Total::Own, Total::Frustum, Total::Prismatoid]);
+        let [total, frustum, prismatoid] = totals.or_else(|| self.assembled_volumes(x))?;
+        Some(Volumes { total, frustum, prismatoid })
+    }
+
+    /// The same where dimensions are computed, through a model.
+    fn assembled_volumes(&self, x: &[f64]) -> Option<[f64; 3]> {
         let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
         let objective = Formula::default();
         let problem = Problem { constraints: rows.into(), objective, ..Problem::clone(&self.problem) };
         let model = assemble(&Arc::new(problem)).ok()?;
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;
-        let [total, frustum, prismatoid] = totals;
-        Some(Volumes { total, frustum, prismatoid })
+        Some(totals)
     }
 }
 
