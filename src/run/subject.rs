@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
-use crate::input;
+use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
 use crate::problem::formula::Total;
@@ -42,7 +42,15 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let input = input::read_with(file, changes).map_err(|mistakes| {
+        Subject::read_watched(file, changes, &|_| {})
+    }
+
+    /// [`Subject::read`], calling `watch` every now and then while tables are read.
+    ///
+    /// # Errors
+    /// All mistakes of the file, its tables and the changes.
+    pub fn read_watched(file: &Path, changes: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Subject, RunError> {
+        let input = input::read_watched(file, changes, watch).map_err(|mistakes| {
             let list = mistakes.list.iter().map(reported).collect();
             RunError::Input(mistakes.to_string(), list)
         })?;

@@ -7,7 +7,6 @@ mod interior_point;
 mod opinions;
 mod state;
 #[cfg(test)]
-#[cfg(test)]
 mod tests;
 
 use std::cell::RefCell;

@@ -11,8 +11,6 @@ mod local;
 mod members;
 mod part;
 mod partition;
-#[cfg(test)]
-mod tests;
 
 pub(super) use local::Apart;
 pub use members::Members;
