@@ -9,6 +9,7 @@ mod interrupt;
 mod live_table;
 mod mesh;
 mod output;
+mod reading;
 mod reference;
 mod section;
 mod solve;

@@ -1,4 +1,5 @@
-//! Files that are either the old one or the whole new one, whatever happens while they are written.
+//! Files that are either the old one or the whole new one, whatever happens to the run while they are written. (Waiting for
+//! the disk would guard against power cuts too, at the price of seconds for large networks: a run can be done again.)
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
