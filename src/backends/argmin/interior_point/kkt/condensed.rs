@@ -6,7 +6,8 @@
 
 use super::super::vectors::norm_max;
 use super::system::System;
-use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
+use crate::linear_algebra::congruence::CongruentSolver;
+use crate::linear_algebra::{FactorizationError, Inertia};
 use crate::model::Pattern;
 
 /// Rows with more variables than this are left in the matrix.
@@ -23,7 +24,7 @@ const USABLE: f64 = 1e-7;
 
 /// Factors, and where the system's values stand in the matrix.
 pub(super) struct Condensed {
-    solver: SymmetricSolver,
+    solver: CongruentSolver,
     values: Vec<f64>,
     hessian_places: Vec<usize>,
     diagonal_places: Vec<usize>,
@@ -56,7 +57,6 @@ impl Condensed {
         let place = |(a, b): (u32, u32)| pattern.position(a.max(b) as usize, a.min(b)).unwrap_or_default();
         let places = |positions: Vec<(u32, u32)>| positions.into_iter().map(place).collect();
         let diagonal = |from: usize, to: usize| places((from as u32..to as u32).map(|k| (k, k)).collect());
-        let solver = SymmetricSolver::new(&pattern.offsets, &pattern.columns).ok()?;
         Some(Condensed {
             hessian_places: places(of_hessian(system).collect()),
             diagonal_places: diagonal(0, n),
@@ -69,7 +69,7 @@ impl Condensed {
             residual: vec![0.0; system.order()],
             correction: vec![0.0; system.order()],
             values: vec![0.0; pattern.len()],
-            solver,
+            solver: CongruentSolver::new(pattern.offsets, pattern.columns).ok()?,
             condensed,
             kept,
         })
