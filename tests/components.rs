@@ -79,6 +79,7 @@ fn solve_from(model: &dyn Model, start: &[f64], start_multipliers: Option<&[f64]
         max_iterations: 10_000,
         budget: Budget::default(),
         stop_test: None,
+        part_test: None,
         observer: &mut observer,
     };
     Argmin.solve(model, &mut job)

@@ -23,7 +23,6 @@ pub fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>
 fn fill(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut writer = BufWriter::with_capacity(1 << 16, File::create(path)?);
     content(&mut writer)?;
-    // No wait for the disk: it would take longer than most solves, and only a power cut could tell.
     writer.flush()
 }
 

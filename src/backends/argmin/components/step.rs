@@ -4,7 +4,7 @@
 //! cannot do it leaves to its big relative: no restoration, no equalities, no saddles.
 
 use super::arena::{Phase, Piece};
-use super::barrier::{self, distances, force};
+use super::barrier::{distances, force};
 use super::crossover::Crossover;
 use super::frame::Frame;
 use super::newton::Newton;
