@@ -13,7 +13,7 @@ use super::trial::Trial;
 
 /// A variable has gone far enough for its growth to show a power law.
 const FAR: f64 = 1e3;
-/// Directions bending less than this share of the sharpest bend are followed.
+/// Directions bending less than this are followed, in units of σ or of the sharpest bend.
 const FLAT: f64 = 1e-3;
 const DIRECTIONS: usize = 12;
 /// Variables and rows at the most.
@@ -36,12 +36,14 @@ pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, far: &[(f64, usi
     // Steps in proportion: a variable that has become tiny is measured by itself.
     let own = point.in_own_sizes();
     let Ok(hessian) = Hessian::of(&own, active.multipliers) else { return Vec::new() };
-    let shape = hessian.normalised();
     let noise = noise(point, &hessian);
-    // Far out, multipliers may be too small to tell which rows push.
-    let powers = [touched, strict_rows(point, active)].iter().find_map(|held| {
-        let directions = Kkt::new(&own, &shape, &free, held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
-        let curve = Curve { point, multipliers: active.multipliers, held, noise, tolerances };
+    // Far out, multipliers may be too small to tell which rows push, and all bends small beside σ.
+    let shapes = [hessian.normalised(), hessian];
+    let ways =
+        [touched, strict_rows(point, active)].into_iter().flat_map(|held| shapes.iter().map(move |shape| (held.clone(), shape)));
+    let powers = ways.into_iter().find_map(|(held, shape)| {
+        let directions = Kkt::new(&own, shape, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        let curve = Curve { point, multipliers: active.multipliers, held: &held, noise, tolerances };
         let falling = |direction: &Vec<f64>| powers(point, direction, &far).filter(|powers| curve.falls(powers));
         directions.unwrap_or_default().iter().find_map(falling)
     });

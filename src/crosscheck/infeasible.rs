@@ -2,6 +2,8 @@
 
 mod filter;
 
+use std::time::Instant;
+
 use super::Conflict;
 use super::attempt::{Contestant, Referee};
 use super::seeds::Seeds;
@@ -11,6 +13,8 @@ use filter::Core;
 
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
+/// Seconds after which no further start is tried.
+const STARTS_SECONDS: f64 = 3.0;
 /// Seconds for one elastic solve at the most.
 const SOLVE_SECONDS: f64 = 60.0;
 
@@ -34,9 +38,9 @@ pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], nea
     let mut seeds = Seeds::new(2);
     let more = if referee.task.class.is_global() { 0 } else { STARTS };
     let starts = std::iter::once(work.inward(near)).chain((0..more).map(|_| seeds.point(work.model.meta())));
-    let mut best: Option<Relaxed> = None;
+    let (begun, mut best) = (Instant::now(), None::<Relaxed>);
     for start in starts {
-        if referee.clock.is_over() {
+        if referee.clock.is_over() || (best.is_some() && begun.elapsed().as_secs_f64() > STARTS_SECONDS) {
             break;
         }
         let Some(relaxed) = work.relax(&all, &start) else { continue };
