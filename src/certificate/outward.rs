@@ -74,18 +74,24 @@ struct Curve<'c, 'p> {
 impl Curve<'_, '_> {
     /// Whether the objective falls along the curve, at every step and beyond rounding, and all rows stay met.
     fn falls(&self, powers: &[f64]) -> bool {
-        let point = self.point;
-        let mut last = point.objective;
+        // What a violation within the tolerance has bought does not count.
+        let Some(base) = self.on_rows(self.point.x.to_vec()) else { return false };
+        let Some(first) = self.value(&base) else { return false };
+        let mut last = first;
         for growth in GROWTH {
-            let grown = point.x.iter().zip(powers).map(|(x, power)| x * growth.powf(*power)).collect();
-            let Some(x) = self.on_rows(grown) else { return false };
-            let trial = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint));
-            match trial.map(|trial| trial.penalised(point, self.multipliers)) {
+            let grown = base.iter().zip(powers).map(|(x, power)| x * growth.powf(*power)).collect();
+            match self.on_rows(grown).and_then(|x| self.value(&x)) {
                 Some(next) if next <= last => last = next,
                 _ => return false,
             }
         }
-        point.objective - last > self.noise
+        first - last > self.noise
+    }
+
+    /// The objective, where all rows are met.
+    fn value(&self, x: &[f64]) -> Option<f64> {
+        let trial = Trial::at(self.point, x).filter(|trial| trial.is_feasible(self.point, self.tolerances.constraint))?;
+        Some(trial.penalised(self.point, self.multipliers))
     }
 
     /// Back onto the rows that push, by Newton steps in proportion.

@@ -186,6 +186,15 @@ fn rows_that_contradict_one_another_are_not_met_by_going_far_away() {
 }
 
 #[test]
+fn what_rounding_leaves_of_a_zero_makes_no_slope_vanish() {
+    let model = Sample::new(&[0.0, 1.0], |x| x[0] + (x[1] - 3.0).powi(2));
+    for rounding in [0.0, 1e-17, -1e-12] {
+        assert!(judge(&model, &[rounding, 3.0]).dual_infeasibility > 0.1, "{rounding}");
+    }
+    assert!(judge(&model.bound(0, 0.0, INF), &[1e-17, 3.0]).certified);
+}
+
+#[test]
 fn units_do_not_matter() {
     // The same cantilever in units a million apart.
     for unit in [1e-6, 1.0, 1e6] {

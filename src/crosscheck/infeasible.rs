@@ -11,6 +11,8 @@ use crate::certificate::{Certificate, Certifier};
 use crate::model::{Elastic, Model};
 use filter::Core;
 
+/// Less than this share of a variable's size is rounding.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
 /// Seconds after which no further start is tried.
@@ -108,7 +110,7 @@ impl<'a> Work<'a> {
 
     /// The same with the bounds of `model`.
     fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        let elastic = Elastic::new(model, rows.to_vec(), start).ok()?;
+        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start)).ok()?;
         let judge = Certifier::new(&elastic, self.referee.task.class, self.referee.tolerances);
         let mut best: Option<Relaxed> = None;
         for &contestant in self.contestants {
@@ -161,9 +163,23 @@ impl<'a> Work<'a> {
             let value = judged.row_values[i];
             if value > meta.row_upper[i] { value - meta.row_upper[i] } else { (value - meta.row_lower[i]).min(0.0) }
         };
-        let slack = |i: usize| 1e-9 * meta.row_upper[i].abs().min(meta.row_lower[i].abs());
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        if self.referee.task.model.jacobian(x, &mut jacobian).is_err() {
+            return Vec::new();
+        }
+        let slope = |at: usize| (jacobian[at] * judged.variable_scales[meta.jacobian.columns[at] as usize]).abs();
+        let scale =
+            |i: usize| meta.jacobian.range(i).map(slope).fold(meta.row_upper[i].abs().min(meta.row_lower[i].abs()), f64::max);
+        let slack = |i: usize| 1e-9 * scale(i);
         (0..meta.rows()).map(|i| (i, amount(i))).filter(|&(i, amount)| amount.abs() > slack(i)).collect()
     }
+}
+
+/// `x` where variables that are zero but for rounding stand at the model's start: what rounding has left of them would be taken
+/// for their size.
+fn sized(model: &dyn Model, x: &[f64]) -> Vec<f64> {
+    let size = |start: f64| if start == 0.0 { 1.0 } else { start.abs() };
+    x.iter().zip(&model.meta().start).map(|(&x, &start)| if x.abs() < NEGLIGIBLE * size(start) { start } else { x }).collect()
 }
 
 /// Multipliers of the elastic problem lie between −1/S and 1/S; noise is far below.
