@@ -73,7 +73,9 @@ fn bandwidth() {
     let (model, meta) = (subject.model(), subject.model().meta());
     let (n, doubles) = (meta.variables(), size_of::<f64>());
     let mut gradient = vec![0.0; n];
-    let seconds = least(|| drop(model.gradient(&meta.start, &mut gradient).expect("a volume at the start")));
+    let seconds = least(|| {
+        model.gradient(&meta.start, &mut gradient).expect("a volume at the start");
+    });
     // Four variables' numbers and a length per rib; x and ∇f once.
     let of_gradient = MILLION * (4 * size_of::<u32>() + doubles) + 2 * n * doubles;
     println!("\ntriad {:.1} GB/s on {} threads", triad / 1e9, rayon::current_num_threads());

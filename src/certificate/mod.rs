@@ -10,6 +10,7 @@ mod least_squares;
 mod lower_bound;
 mod matrix;
 mod multipliers;
+mod pieces;
 mod point;
 mod runaway;
 #[cfg(test)]

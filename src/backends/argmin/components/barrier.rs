@@ -16,6 +16,9 @@ pub(super) fn value(mu: f64, (below, above): (f64, f64)) -> f64 {
     term(below) + term(above)
 }
 
+/// Push of the start off its bounds.
+pub(super) const PUSH: f64 = 1e-2;
+
 /// Moves a value inside its bounds by a share of the room there is.
 pub(super) fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
     let room = |bound: f64| (push * bound.abs().max(1.0)).min(push * (upper - lower));
