@@ -50,6 +50,8 @@ struct Pivoting<'a> {
     columns: &'a [Column],
     matrix: Symmetric,
     basic: Vec<bool>,
+    /// The basic columns the matrix was factorised for last.
+    factorised: Option<Vec<bool>>,
 }
 
 impl<'a> Pivoting<'a> {
@@ -61,7 +63,7 @@ impl<'a> Pivoting<'a> {
         }
         let matrix = build(g.len() + columns.len(), &positions)?;
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Ok(Pivoting { g, columns, matrix, basic })
+        Ok(Pivoting { g, columns, matrix, basic, factorised: None })
     }
 
     /// The minimiser with the proximal term around `centre`.
@@ -98,7 +100,10 @@ impl<'a> Pivoting<'a> {
         let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
         let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
         let entries = std::iter::repeat_n(1.0, p).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
-        self.matrix.factor(entries)?;
+        if self.factorised.as_ref() != Some(basic) {
+            self.matrix.factor(entries)?;
+            self.factorised = Some(basic.clone());
+        }
         let pull = |k: usize| if self.basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
         let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..columns.len()).map(pull)).collect();
         let mut solution = self.matrix.solve(&right)?;

@@ -12,6 +12,7 @@ mod lower_bound;
 mod matrix;
 mod multipliers;
 mod outward;
+mod pieces;
 mod point;
 mod reach;
 mod runaway;
