@@ -5,8 +5,12 @@ use super::filter::Filter;
 use super::form::{Form, Source};
 use super::iterate::Errors;
 use super::kkt::Kkt;
+use super::polish;
 use super::start;
 use crate::model::EvaluationError;
+
+/// Number of variables from which on a problem counts as large.
+const LARGE: usize = 1000;
 
 /// How to begin.
 #[derive(Clone, Copy)]
@@ -40,7 +44,8 @@ impl<'a> Engine<'a> {
         form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
         let mu = beginning.mu.unwrap_or(if warm { WARM_BARRIER } else { FIRST_BARRIER });
-        let mut iterate = start::place(&mut form, beginning.x, push)?;
+        let slack_push = if form.variables() >= LARGE && !warm { start::LARGE_PUSH } else { push };
+        let mut iterate = start::place(&mut form, beginning.x, push, slack_push)?;
         let mut kkt =
             Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
         match beginning.multipliers {
@@ -75,6 +80,7 @@ impl<'a> Engine<'a> {
             shortened_steps: 0,
             tiny_steps: 0,
             iterations: 0,
+            polish_at: if form.variables() >= LARGE { polish::FIRST_TRIAL } else { 0.0 },
             form,
         };
         engine.filter.reset(engine.largest_violation);
