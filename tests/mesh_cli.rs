@@ -187,7 +187,7 @@ fn slices_bound_the_segments_and_cut_solids() {
 fn from_a_mesh_to_solids() {
     let folder = folder(&[("grid.obj", grid(|lines| lines.extend(["l 6 7 8 9 10".to_string(), "l 3 8 13 18".to_string()])))]);
     let path = folder.path();
-    for kind in ["rectangle", "h-beam"] {
+    for kind in ["rectangle", "h-beam", "tee", "box", "circle", "tube", "superellipse"] {
         let made = report(path, &format!("mesh ribs grid.obj --kind {kind} --segments 1 --load 60 -o {kind}"), 0);
         assert_eq!((number(&made, "/problem/ribs"), number(&made, "/problem/length")), (7.0, 7.0));
         let solids = "--solids s.obj --solids s.stl --solids s.vtu";
@@ -210,6 +210,60 @@ fn from_a_mesh_to_solids() {
         );
         let at_bounds = solved["bounds"].as_array().unwrap().iter().filter(|bound| bound["active"] == "lower").count();
         assert!(at_bounds < solved["bounds"].as_array().unwrap().len() / 2, "{kind}: the optimum is more than the lower bounds");
+    }
+}
+
+/// Kinds drawn by points, from tables of their own: a polygon with a hole, lines with one thickness and with one per segment.
+#[test]
+fn solids_of_sections_drawn_by_points() {
+    let folder = folder(&[("grid.obj", grid(|lines| lines.push("l 6 7 8 9 10".into())))]);
+    let path = folder.path();
+    report(path, "mesh ribs grid.obj --segments 1 -o r", 0);
+    let names: Vec<String> = fs::read_to_string(path.join("r/sections.csv")).unwrap().lines().skip(1).map(first_cell).collect();
+    let channel = "0.05 0; 0 0; 0 0.2; 0.05 0.2";
+    let tables = [
+        (
+            "polygon",
+            "scale_x.lower,scale_x.upper,scale_y.lower,scale_y.upper,points",
+            "0.1,9,0.1,9,0 0; .1 0; .1 .2; 0 .2 | .03 .05; .07 .05; .05 .1",
+        ),
+        ("polyline", "thickness.lower,thickness.upper,points", &format!("0.001,0.03,{channel}")),
+        (
+            "polyline",
+            "thickness[1],thickness[2].lower,thickness[2].upper,thickness[3],points",
+            &format!("0.01,0.001,0.03,0.01,{channel}"),
+        ),
+    ];
+    for (kind, header, cells) in tables {
+        let rows: String = names.iter().map(|name| format!("{name},{kind},{cells}\n")).collect();
+        fs::write(path.join("r/sections.csv"), format!("name,kind,{header}\n{rows}")).unwrap();
+        let constraint = "[[constraints]]\nname = 'stiff'\nfor = 'sections'\nrequire = 'Ix >= 3e-5'\n";
+        let tables = "[tables]\nsections = 'sections.csv'\nribs = 'ribs.csv'\n";
+        fs::write(path.join("r/problem.toml"), format!("{constraint}{tables}")).unwrap();
+        let solved = report(path, "solve r/problem.toml --out out --solids s.stl --solids s.obj", 0);
+        let built: Value = serde_json::from_slice(&fs::read(path.join("s.json")).unwrap()).unwrap();
+        for volume in ["/volume", "/model_volume", "/prismatoid_volume"] {
+            assert!(near(number(&built, volume), number(&solved, "/volume/prismatoid"), 1e-12), "{kind}: {built}");
+        }
+    }
+}
+
+fn first_cell(row: &str) -> String {
+    row.split(',').next().unwrap_or_default().into()
+}
+
+/// Lines that share no section are problems of their own; both backends take the vault apart, and agree.
+#[test]
+fn independent_lines_are_solved_one_by_one() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    report(path, "mesh new small-vault -o vault.obj", 0);
+    report(path, "mesh ribs vault.obj --kind h-beam -o vault", 0);
+    let solved = report(path, "solve vault/problem.toml", 0);
+    assert_eq!((&solved["status"], &solved["agreement"]["agree"]), (&"certified".into(), &true.into()), "{solved}");
+    for solution in solved["solutions"].as_array().unwrap() {
+        assert!(solution["message"].as_str().unwrap().contains("9 independent components"), "{solution}");
+        assert_eq!(solution["certificate"]["certified"], true, "{solution}");
     }
 }
 
@@ -268,7 +322,7 @@ fn wrong_requests_exit_with_2_and_say_what_to_do() {
         "mesh slice grid.obj -o s.csv",
         "mesh slice grid.obj --segments 0 -o s.csv",
         "mesh slice grid.obj --plane w=1 -o s.csv",
-        "mesh ribs grid.obj --kind tee -o out",
+        "mesh ribs grid.obj --kind polygon -o out",
         "mesh ribs grid.obj --bounds tf=1:2 -o out",
         "mesh ribs grid.obj --bounds h=2:1 -o out",
         "mesh ribs grid.obj --load -1 -o out",

@@ -24,6 +24,9 @@ pub trait Backend: Sync {
 /// Says whether a point passes the certificate.
 pub type StopTest<'a> = &'a (dyn Fn(&[f64]) -> bool + Sync);
 
+/// Says whether a point of a part of the model ([`crate::model::components`]) passes the certificate by itself.
+pub type PartTest<'a> = &'a (dyn Fn(&dyn Model, &[f64]) -> bool + Sync);
+
 /// What a backend is asked to do.
 pub struct Job<'a> {
     /// `auto` or one of [`Backend::algorithms`].
@@ -44,6 +47,8 @@ pub struct Job<'a> {
     pub budget: Budget<'a>,
     /// True once a point passes the certificate: foreign solvers may stop there.
     pub stop_test: Option<StopTest<'a>>,
+    /// The same for solvers that take the model apart.
+    pub part_test: Option<PartTest<'a>>,
     /// Called with every iteration (or, where a solver shows none, every improving evaluation).
     pub observer: &'a mut dyn FnMut(&Iteration<'_>),
 }

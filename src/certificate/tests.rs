@@ -55,6 +55,12 @@ fn a_maximum_on_a_bound_with_zero_multiplier_does_not_pass() {
     let point = judge(&model, &[0.0]);
     assert!(point.negative_curvature && point.escape.as_ref().unwrap()[0] > 0.0);
     assert!(judge(&model, &[2.0]).certified);
+    // What rounding has left of a zero says nothing of the variable's size.
+    let model = Sample::new(&[3.0, 0.0], |x| (x[0] - 2.0) * (x[0] - 2.0) - x[1] * x[1]).bound(1, 0.0, 2.0);
+    for rounding in [0.0, 1e-18, 1e-15, 1e-9] {
+        let point = judge(&model, &[2.0, rounding]);
+        assert!(point.negative_curvature && point.escape.unwrap()[1] > 0.0);
+    }
     // x·y on the quadrant: a minimum at the origin although the Hessian is indefinite.
     let quadrant = Sample::new(&[1.0, 1.0], |x| x[0] * x[1]).bound(0, 0.0, INF).bound(1, 0.0, INF);
     assert!(judge(&quadrant, &[0.0, 0.0]).certified);

@@ -2,22 +2,23 @@
 
 use super::clock::Clock;
 use super::{Answer, Task};
-use crate::backends::{Backend, Iteration, Job, Solution, Termination};
+use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model};
 
 /// A solver may stop where the certificate holds with this much to spare: answers are usually far better than what is accepted.
 const SPARE: f64 = 1e-3;
+/// Likewise for parts of a model; their complementarities add up.
+const PART_SPARE: f64 = 1e-2;
 
 /// What one run begins with, and when it may end.
 struct Start<'r> {
     x: &'r [f64],
     multipliers: Option<&'r [f64]>,
     budget: Budget<'r>,
-    stop: &'r StopTest<'r>,
+    stop: StopTest<'r>,
+    part: Option<PartTest<'r>>,
 }
-
-type StopTest<'r> = dyn Fn(&[f64]) -> bool + Sync + 'r;
 
 /// A backend with its algorithm.
 #[derive(Clone, Copy)]
@@ -39,7 +40,7 @@ impl<'a> Referee<'a> {
     pub(super) fn new(task: &'a Task<'a>) -> Self {
         let settings = task.settings;
         let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
-        let strict = strict(tolerances);
+        let strict = strict(tolerances, SPARE);
         Referee {
             task,
             judge: Certifier::new(task.model, task.class, tolerances),
@@ -60,7 +61,8 @@ impl<'a> Referee<'a> {
     ) -> Answer {
         let Some(other) = self.task.substitution else {
             let stop = |x: &[f64]| self.strict.accepts(x);
-            let start = Start { x: start, multipliers, budget, stop: &stop };
+            let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
+            let start = Start { x: start, multipliers, budget, stop: &stop, part: Some(&part) };
             let solution = self.solve(contestant, self.task.model, &start, observer);
             return self.judged(contestant, solution);
         };
@@ -71,7 +73,7 @@ impl<'a> Referee<'a> {
         };
         let inward = other.inward(start);
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
-        let start = Start { x: &inward, multipliers: None, budget, stop: &stop };
+        let start = Start { x: &inward, multipliers: None, budget, stop: &stop, part: None };
         let mut solution = self.solve(contestant, other.model(), &start, &mut translated);
         solution.multipliers = None;
         solution.x = self.outward(&solution.x);
@@ -110,6 +112,7 @@ impl<'a> Referee<'a> {
             max_iterations: settings.max_iterations,
             budget: start.budget,
             stop_test: Some(start.stop),
+            part_test: start.part,
             observer,
         };
         contestant.backend.solve(model, &mut job)
@@ -123,9 +126,14 @@ impl<'a> Referee<'a> {
         start: &[f64],
         budget: Budget<'_>,
     ) -> Solution {
-        let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances));
+        let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE));
         let stop = |x: &[f64]| own.accepts(x);
-        self.solve(contestant, model, &Start { x: start, multipliers: None, budget, stop: &stop }, &mut |_| {})
+        self.solve(contestant, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
+    }
+
+    /// Whether a point of a part of the model passes by itself.
+    fn accepts_part(&self, part: &dyn Model, x: &[f64]) -> bool {
+        Certifier::new(part, Class::Nonlinear, strict(self.tolerances, PART_SPARE)).accepts(x)
     }
 
     fn judged(&self, contestant: Contestant<'_>, solution: Solution) -> Answer {
@@ -157,8 +165,8 @@ impl<'a> Referee<'a> {
     }
 }
 
-fn strict(tolerances: Tolerances) -> Tolerances {
-    Tolerances { optimality: tolerances.optimality * SPARE, constraint: tolerances.constraint * SPARE.sqrt() }
+fn strict(tolerances: Tolerances, spare: f64) -> Tolerances {
+    Tolerances { optimality: tolerances.optimality * spare, constraint: tolerances.constraint * SPARE.sqrt() }
 }
 
 fn refused(algorithm: &str, start: &[f64], message: String) -> Solution {

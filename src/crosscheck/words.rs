@@ -39,6 +39,14 @@ pub(super) fn certified(outcome: &mut Outcome) {
     outcome.message = message;
 }
 
+pub(super) fn starts_left_out(outcome: &mut Outcome, run: usize, wanted: usize) {
+    outcome.message.push_str(&format!(" Only {run} of {wanted} starts were run before the end."));
+}
+
+pub(super) fn interrupted(outcome: &mut Outcome) {
+    outcome.message = format!("Interrupted; what was found before is certified. {}", outcome.message);
+}
+
 pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
     let names = variables(referee, &outcome.runaway);
     if outcome.status == Status::Unbounded {
@@ -85,7 +93,7 @@ pub(super) fn no_feasible_point(outcome: &mut Outcome) {
     outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
 }
 
-pub(super) fn undecided(outcome: &mut Outcome) {
+pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
     let reasons: Vec<_> = outcome.answers.iter().map(|answer| format!("{}: {}", answer.backend, why(answer))).collect();
     let (lead, remedy) = match outcome.status {
         Status::Interrupted => ("Interrupted; this is the best point so far.", None),
@@ -100,6 +108,15 @@ pub(super) fn undecided(outcome: &mut Outcome) {
     };
     outcome.message = format!("{lead} {}.", reasons.join("; "));
     outcome.remedy = remedy.map(String::from);
+    let vanishing = referee.task.substitution.map_or_else(Vec::new, |other| other.vanishing(&outcome.x));
+    if outcome.status == Status::Uncertified && !vanishing.is_empty() {
+        let difference = |&(a, b): &(usize, usize)| variables(referee, &[a, b]).replace(", ", " − ");
+        let names = list(&vanishing.iter().map(difference).collect::<Vec<_>>());
+        outcome
+            .message
+            .push_str(&format!(" The best answer lets {names} vanish, where the objective has no slope to prove it by."));
+        outcome.remedy = Some(format!("keep {names} above a least value by a constraint"));
+    }
 }
 
 /// Why an answer is not certified.
@@ -121,7 +138,7 @@ fn variables(referee: &Referee<'_>, places: &[usize]) -> String {
     list(&places.iter().map(|&j| referee.task.model.variable_name(j)).collect::<Vec<_>>())
 }
 
-fn list(names: &[String]) -> String {
+pub(super) fn list(names: &[String]) -> String {
     let mut shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {
         shown.push_str(&format!(" and {} more", names.len() - SHOWN));

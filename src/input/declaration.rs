@@ -75,10 +75,10 @@ pub(super) enum Degree {
     Given(Scalar),
 }
 
-/// `points = [[x, y], …]`: numbers or constant expressions.
+/// `points = [[x, y], …]` and `holes = [[[x, y], …], …]`: numbers or constant expressions.
 pub(super) struct PointsEntry {
-    /// `None` after a mistake in one of them.
-    pub list: Option<Vec<[Scalar; 2]>>,
+    /// The points, then those of each hole; `None` after a mistake in one of them.
+    pub rings: Option<Vec<Vec<[Scalar; 2]>>>,
     pub place: Place,
 }
 

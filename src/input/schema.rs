@@ -104,6 +104,10 @@ fn section() -> Value {
         if kind.has_outline() {
             properties.insert("points".into(), points());
         }
+        if kind.takes_holes() {
+            let holes = json!({ "type": "array", "items": points(), "description": "Rings of points inside the outer one." });
+            properties.insert("holes".into(), holes);
+        }
         let names = form.dimensions.iter().map(|name| list_name(name).unwrap_or(name));
         properties.extend(form.dimensions.iter().map(|name| match list_name(name) {
             Some(list) => (list.to_owned(), json!({ "type": "array", "items": dimension, "minItems": 1 })),
@@ -171,7 +175,7 @@ fn solver() -> Value {
             "constraint_tolerance": tolerance(defaults.constraint_tolerance, "Largest accepted violation, relative (TolCon)."),
             "max_iterations": count(defaults.max_iterations, "Iterations per backend."),
             "max_evaluations": count(defaults.max_evaluations, "Evaluations per backend."),
-            "max_seconds": { "type": "number", "exclusiveMinimum": 0, "default": defaults.max_seconds,
+            "max_seconds": { "type": "number", "minimum": 0, "default": defaults.max_seconds,
                 "description": "Seconds for the whole command." },
             "nlopt": algorithm(NLOPT_ALGORITHMS),
             "argmin": algorithm(ARGMIN_ALGORITHMS),

@@ -136,7 +136,7 @@ fn legend(text: &mut String, view: &View, title: &str, tallest: f64, thickness: 
     let _ = writeln!(text, "<text x=\"{:.0}\" y=\"{:.0}\">utilisation 0 to 1</text>", left + 128.0, middle + 5.0);
 }
 
-/// Viridis (matplotlib, CC0), linear between nine of its colours; red above 1.
+/// Viridis (matplotlib, CC0) from its light end, linear between nine of its colours: what is used fully stands out on white; red above 1.
 fn colour(value: f64) -> String {
     const STOPS: [[f64; 3]; 9] = [
         [68., 1., 84.],
@@ -155,7 +155,7 @@ fn colour(value: f64) -> String {
     if value > 1.0 + 1e-6 {
         return "#d62728".into();
     }
-    let at = value.clamp(0.0, 1.0) * 8.0;
+    let at = (1.0 - value.clamp(0.0, 1.0)) * 8.0;
     let k = (at as usize).min(7);
     let t = at - k as f64;
     let [r, g, b] = std::array::from_fn(|c| (STOPS[k][c] * (1.0 - t) + STOPS[k + 1][c] * t).round() as u8);

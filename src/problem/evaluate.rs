@@ -154,8 +154,7 @@ impl<'a> Evaluation<'a> {
         let values: Option<Vec<f64>> = dimensions.iter().map(|&dimension| self.dimension(s, dimension)).collect();
         let (mut graph, values) = (Graph::new(), values?);
         let nodes: Vec<NodeId> = values.into_iter().map(|value| graph.constant(value)).collect();
-        let outline = self.problem.sections.outlines.get(&s).map_or(&[][..], |points| points);
-        let given = Given { form, dimensions: &nodes, outline };
+        let given = Given { form, dimensions: &nodes, outline: self.problem.outline(s) };
         let node = sections::kind_of(form_number).property(&mut graph, &given, name)?;
         graph.as_constant(node)
     }

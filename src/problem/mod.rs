@@ -23,6 +23,7 @@ pub mod settings;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use crate::geometry::polygon::Ring;
 use crate::sections;
 pub use collections::sections_form;
 pub use formula::{Formula, Property};
@@ -97,9 +98,9 @@ impl Problem {
         }
     }
 
-    /// The points of a section drawn by points; empty for others.
-    pub fn outline(&self, section: u32) -> &[[f64; 2]] {
-        self.sections.outlines.get(&section).map_or(&[], |points| points.as_slice())
+    /// The points of a section drawn by points: its own, then those of each hole; empty for others.
+    pub fn outline(&self, section: u32) -> &[Ring] {
+        self.sections.outlines.get(&section).map_or(&[], |rings| rings.as_slice())
     }
 
     /// The dimensions of section `s`, in the order of its form's names.
@@ -174,8 +175,8 @@ pub struct Sections {
     pub first_dimension: Vec<u32>,
     /// Dimensions of all sections.
     pub dimensions: Vec<Dimension>,
-    /// Shapes (points of a polygon, …) for kinds that have one, by section.
-    pub outlines: HashMap<u32, Arc<Vec<[f64; 2]>>>,
+    /// Rings of points (the polygon's or line's, then the holes') for kinds that have them, by section.
+    pub outlines: HashMap<u32, Arc<Vec<Ring>>>,
     /// Data columns.
     pub data: Vec<Column>,
 }

@@ -1,8 +1,10 @@
 //! One cross-section in numbers: its dimensions, its properties, its outline.
 
+use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
 use crate::expression::ast::Collection;
+use crate::geometry::polygon::Ring;
 use crate::problem::Problem;
 use crate::problem::evaluate::Evaluation;
 use crate::report::number::short;
@@ -24,8 +26,9 @@ pub struct CrossSection {
     pub properties: Vec<(&'static str, Option<f64>)>,
     /// What is wrong with it at these dimensions.
     pub defect: Option<String>,
-    /// Points it is drawn by.
-    pub points: Vec<[f64; 2]>,
+    /// Points it is drawn by, for each ring: the outer one or the line, then the holes.
+    #[serde(flatten, serialize_with = "as_points_and_holes")]
+    pub outline: Vec<Ring>,
     #[serde(skip)]
     form: &'static Form,
 }
@@ -35,8 +38,17 @@ fn as_map<T: Serialize, S: Serializer>(pairs: &[(&'static str, T)], serializer: 
     serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
 
+/// `points` and `holes`, as in the problem file.
+fn as_points_and_holes<S: Serializer>(outline: &[Ring], serializer: S) -> Result<S::Ok, S::Error> {
+    let (points, holes) = outline.split_first().map_or((&[][..], &[][..]), |(first, holes)| (first.as_slice(), holes));
+    let mut object = serializer.serialize_struct("outline", 2)?;
+    object.serialize_field("points", points)?;
+    object.serialize_field("holes", holes)?;
+    object.end()
+}
+
 impl CrossSection {
-    /// A section by form, dimensions in the form's order, and points.
+    /// A section by form, dimensions in the form's order, and rings of points.
     ///
     /// ```
     /// use ribopt::{report::cross_section::CrossSection, sections::kind};
@@ -45,11 +57,11 @@ impl CrossSection {
     /// assert_eq!(section.properties[0], ("A", Some(0.1)));
     /// assert!(CrossSection::new("s", form, &[0.2], &[]).is_none());
     /// ```
-    pub fn new(name: &str, form: &'static Form, given: &[f64], points: &[[f64; 2]]) -> Option<CrossSection> {
+    pub fn new(name: &str, form: &'static Form, given: &[f64], outline: &[Ring]) -> Option<CrossSection> {
         let kind = sections::kind(form.kind).filter(|_| given.len() == form.dimensions.len())?;
         let others = kind.properties().iter().filter(|name| !form.dimensions.contains(name) && sections::offers(form, name));
         let value = |name: &&'static str| {
-            let value = sections::evaluate(kind, form, given, points, name).filter(|value| value.is_finite());
+            let value = sections::evaluate(kind, form, given, outline, name).filter(|value| value.is_finite());
             (*name, value)
         };
         Some(CrossSection {
@@ -57,8 +69,8 @@ impl CrossSection {
             kind: kind.name(),
             dimensions: form.dimensions.iter().copied().zip(given.iter().copied()).collect(),
             properties: others.map(value).collect(),
-            defect: kind.defect(form, given, points),
-            points: points.to_vec(),
+            defect: kind.defect(form, given, outline),
+            outline: outline.to_vec(),
             form,
         })
     }
@@ -79,13 +91,13 @@ impl CrossSection {
     }
 
     /// The boundary: outer ring anticlockwise, holes clockwise, about the centroid; curves to a thousandth of the section's size.
-    pub fn rings(&self) -> Vec<Vec<[f64; 2]>> {
+    pub fn rings(&self) -> Vec<Ring> {
         let given: Vec<f64> = self.dimensions.iter().map(|(_, value)| *value).collect();
         if self.defect.is_some() {
             return Vec::new();
         }
         let size = self.value("height").unwrap_or(0.0).max(self.value("width").unwrap_or(0.0));
-        sections::kind(self.kind).map_or_else(Vec::new, |kind| kind.rings(self.form, &given, &self.points, 1e-3 * size))
+        sections::kind(self.kind).map_or_else(Vec::new, |kind| kind.rings(self.form, &given, &self.outline, 1e-3 * size))
     }
 
     /// The numbers as a table for people.

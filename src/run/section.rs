@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::{RunError, Subject};
+use crate::geometry::polygon::Ring;
 use crate::input;
 use crate::problem::nearest::did_you_mean;
 use crate::report::answer::EarlierAnswer;
@@ -45,7 +46,7 @@ fn number(all: &[Box<str>], name: &str) -> Result<usize, RunError> {
     })
 }
 
-/// A section by kind, dimensions as `b=0.2,h=0.5`, and points as `x y; x y; …`.
+/// A section by kind, dimensions as `b=0.2,h=0.5`, and points as `x y; x y; …`, those of holes after a bar.
 ///
 /// ```
 /// use ribopt::run::section::by_kind;
@@ -64,10 +65,10 @@ pub fn by_kind(kind: &str, dimensions: &str, points: Option<&str>) -> Result<Cro
         return Err(RunError::Choice(format!("unknown kind of section `{kind}`; {help}")));
     };
     let given = pairs(dimensions)?;
-    let points = points.map(input::points).transpose().map_err(RunError::Choice)?.unwrap_or_default();
+    let outline = points.map(input::points).transpose().map_err(RunError::Choice)?.unwrap_or_default();
     let (form, values) = form_of(kind, &given)?;
-    outline_fits(kind, form, &points)?;
-    let section = CrossSection::new(kind.name(), form, &values, &points);
+    outline_fits(kind, form, &outline)?;
+    let section = CrossSection::new(kind.name(), form, &values, &outline);
     section.ok_or_else(|| RunError::Choice("these dimensions make no section".into()))
 }
 
@@ -92,11 +93,14 @@ fn form_of(kind: &'static dyn Kind, given: &[(String, f64)]) -> Result<(&'static
     })
 }
 
-fn outline_fits(kind: &dyn Kind, form: &Form, points: &[[f64; 2]]) -> Result<(), RunError> {
-    match (kind.has_outline(), points.is_empty()) {
+fn outline_fits(kind: &dyn Kind, form: &Form, outline: &[Ring]) -> Result<(), RunError> {
+    match (kind.has_outline(), outline.is_empty()) {
         (true, true) => Err(RunError::Choice(format!("a {} is drawn by points: give --points \"x y; x y; …\"", kind.name()))),
         (false, false) => Err(RunError::Choice(format!("a {} has no points; leave --points out", kind.name()))),
         (false, true) => Ok(()),
-        (true, false) => kind.outline_defect(form, points).map_or(Ok(()), |reason| Err(RunError::Choice(reason))),
+        (true, false) if outline.len() > 1 && !kind.takes_holes() => {
+            Err(RunError::Choice(format!("a {} takes no holes; give one ring of points", kind.name())))
+        }
+        (true, false) => kind.outline_defect(form, outline).map_or(Ok(()), |reason| Err(RunError::Choice(reason))),
     }
 }

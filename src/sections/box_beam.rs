@@ -3,6 +3,7 @@
 use super::build::{monomial, symmetric_modulus};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
+use crate::geometry::polygon::Ring;
 
 /// The rectangular hollow section.
 pub struct BoxBeam;
@@ -128,7 +129,7 @@ impl Kind for BoxBeam {
         &["bi", "hi"]
     }
 
-    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, _: &Form, given: &[f64], _: &[Ring], _: f64) -> Vec<Ring> {
         let [b, h, tw, tf] = *given else { return Vec::new() };
         let (x, y) = (b / 2.0, h / 2.0);
         let (xi, yi) = (x - tw, y - tf);

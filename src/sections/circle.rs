@@ -6,6 +6,7 @@ use super::build::monomial;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Superellipse;
+use crate::geometry::polygon::Ring;
 
 /// The solid circle.
 pub struct Circle;
@@ -48,11 +49,11 @@ impl Kind for Circle {
         true
     }
 
-    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, _: &Form, given: &[f64], _: &[Ring], tolerance: f64) -> Vec<Ring> {
         ring(given[0], tolerance).into_iter().collect()
     }
 
-    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[Ring]) -> Vec<Ring> {
         matching_ring(given[0]).into_iter().collect()
     }
 }

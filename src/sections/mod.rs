@@ -16,15 +16,16 @@ mod tee;
 mod tube;
 
 use crate::expression::graph::{Graph, NodeId};
+use crate::geometry::polygon::Ring;
 
-/// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it has an outline.
+/// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it is drawn by points.
 pub struct Given<'a> {
     /// The form the dimensions are given in.
     pub form: &'static Form,
     /// One node per dimension of the form.
     pub dimensions: &'a [NodeId],
-    /// Points, for kinds drawn by points.
-    pub outline: &'a [[f64; 2]],
+    /// Points, for kinds drawn by points: of the polygon or the line, then of each hole.
+    pub outline: &'a [Ring],
 }
 
 /// One way to give a kind's dimensions: which ones, by which names.
@@ -103,23 +104,28 @@ pub trait Kind: Sync {
         false
     }
 
+    /// May its outline have holes?
+    fn takes_holes(&self) -> bool {
+        false
+    }
+
     /// What is wrong with these points, whatever the dimensions.
-    fn outline_defect(&self, _form: &Form, _outline: &[[f64; 2]]) -> Option<String> {
+    fn outline_defect(&self, _form: &Form, _outline: &[Ring]) -> Option<String> {
         None
     }
 
     /// What is wrong with the section at numeric dimensions, in the form's order: one that is not positive, an outline that meets itself.
-    fn defect(&self, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
+    fn defect(&self, form: &Form, given: &[f64], outline: &[Ring]) -> Option<String> {
         not_positive(self.name(), form, given, outline)
     }
 
     /// The boundary at numeric dimensions: the outer ring counter-clockwise, holes clockwise; curves to `tolerance`.
     /// `given` are numbers in the form's order.
-    fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>>;
+    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], tolerance: f64) -> Vec<Ring>;
 
     /// The boundary with as many points for any dimensions, so that two sections can be joined point by point. Curves become
     /// polygons of 64 points and of the curve's own area.
-    fn matching_rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    fn matching_rings(&self, form: &Form, given: &[f64], outline: &[Ring]) -> Vec<Ring> {
         // Kinds with straight sides look at no tolerance.
         self.rings(form, given, outline, f64::INFINITY)
     }
@@ -149,7 +155,7 @@ pub static KINDS: &[&dyn Kind] = &[
 /// let area = evaluate(tube, &tube.forms()[0], &[0.2, 0.01], &[], "A").unwrap();
 /// assert!((area - std::f64::consts::PI * 0.01 * 0.19).abs() < 1e-17);
 /// ```
-pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[[f64; 2]], name: &str) -> Option<f64> {
+pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[Ring], name: &str) -> Option<f64> {
     let form = kind.forms().iter().find(|known| *known == form)?;
     if given.len() != form.dimensions.len() {
         return None;
@@ -161,7 +167,7 @@ pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[[f64; 2]
 }
 
 /// The first dimension, given or named by [`Kind::positive`], that is not positive and finite.
-fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
+fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[Ring]) -> Option<String> {
     let kind = kind(name)?;
     let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
     let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);

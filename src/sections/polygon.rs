@@ -1,15 +1,22 @@
-//! `polygon`: any simple polygon, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
+//! `polygon`: any simple polygon, with or without holes, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
 
 use super::build::monomial;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Polygon as Shape;
+use crate::geometry::polygon::{PolygonError, Ring};
 
-/// A polygon given by points, scaled.
+/// A polygon given by the points of its rings, scaled.
 pub struct Polygon;
 
 static FORMS: &[Form] =
     &[Form { kind: "polygon", dimensions: &["scale"] }, Form { kind: "polygon", dimensions: &["scale_x", "scale_y"] }];
+
+/// The polygon at scale 1.
+fn shape(outline: &[Ring]) -> Result<Shape, PolygonError> {
+    let outer = outline.first().cloned().unwrap_or_default();
+    Shape::new(outer, outline.iter().skip(1).cloned().collect())
+}
 
 impl Kind for Polygon {
     fn name(&self) -> &'static str {
@@ -54,7 +61,7 @@ impl Kind for Polygon {
             "scale" => return Some(monomial(graph, 1.0, &[(x, 0.5), (y, 0.5)])),
             _ => {}
         }
-        let shape = Shape::new(given.outline.to_vec(), Vec::new()).ok()?;
+        let shape = shape(given.outline).ok()?;
         let own = shape.properties();
         let extent = |d: usize| {
             let reach = |sign: f64| shape.outer().iter().map(|v| sign * (v[d] - own.centroid[d])).fold(0.0, f64::max);
@@ -91,14 +98,19 @@ impl Kind for Polygon {
         true
     }
 
-    fn outline_defect(&self, _: &Form, outline: &[[f64; 2]]) -> Option<String> {
-        Shape::new(outline.to_vec(), Vec::new()).err().map(|error| error.to_string())
+    fn takes_holes(&self) -> bool {
+        true
     }
 
-    fn rings(&self, _: &Form, given: &[f64], outline: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+    fn outline_defect(&self, _: &Form, outline: &[Ring]) -> Option<String> {
+        shape(outline).err().map(|error| error.to_string())
+    }
+
+    fn rings(&self, _: &Form, given: &[f64], outline: &[Ring], _: f64) -> Vec<Ring> {
         let (Some(x), Some(y)) = (given.first(), given.last()) else { return Vec::new() };
-        let Ok(shape) = Shape::new(outline.to_vec(), Vec::new()) else { return Vec::new() };
+        let Ok(shape) = shape(outline) else { return Vec::new() };
         let [cx, cy] = shape.properties().centroid;
-        vec![shape.outer().iter().map(|v| [x * (v[0] - cx), y * (v[1] - cy)]).collect()]
+        let scaled = |ring: &Ring| ring.iter().map(|v| [x * (v[0] - cx), y * (v[1] - cy)]).collect();
+        shape.rings().iter().map(scaled).collect()
     }
 }

@@ -11,7 +11,8 @@ use super::outline::Outline;
 use super::{Form, Given, Kind, not_positive};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
-use crate::geometry::{Centreline, Polygon};
+use crate::geometry::polygon::Ring;
+use crate::geometry::{Centreline, Polygon, PolylineError};
 
 /// A strip along a line.
 pub struct Polyline;
@@ -86,8 +87,8 @@ fn uniform(form: &Form) -> bool {
     form.dimensions == ["thickness"]
 }
 
-fn centreline(outline: &[[f64; 2]]) -> Option<Centreline> {
-    Centreline::new(outline.to_vec(), false).ok()
+fn centreline(outline: &[Ring]) -> Result<Centreline, PolylineError> {
+    Centreline::new(outline.first().cloned().unwrap_or_default(), false)
 }
 
 /// The thickness of a segment.
@@ -139,7 +140,7 @@ impl Kind for Polyline {
         if let Some(at) = given.form.dimensions.iter().position(|known| *known == name) {
             return Some(given.dimensions[at]);
         }
-        let line = centreline(given.outline)?;
+        let line = centreline(given.outline).ok()?;
         if !uniform(given.form) && line.segments() != given.form.dimensions.len() {
             return None;
         }
@@ -186,8 +187,8 @@ impl Kind for Polyline {
         true
     }
 
-    fn outline_defect(&self, form: &Form, outline: &[[f64; 2]]) -> Option<String> {
-        let line = match Centreline::new(outline.to_vec(), false) {
+    fn outline_defect(&self, form: &Form, outline: &[Ring]) -> Option<String> {
+        let line = match centreline(outline) {
             Ok(line) => line,
             Err(error) => return Some(error.to_string()),
         };
@@ -196,7 +197,7 @@ impl Kind for Polyline {
         (!fits).then(|| format!("{given} thicknesses for {segments} segments; give one each, or one for all"))
     }
 
-    fn defect(&self, form: &Form, given: &[f64], outline: &[[f64; 2]]) -> Option<String> {
+    fn defect(&self, form: &Form, given: &[f64], outline: &[Ring]) -> Option<String> {
         let defect = self.outline_defect(form, outline).or_else(|| not_positive(self.name(), form, given, outline));
         defect.or_else(|| {
             let mut rings = self.rings(form, given, outline, 0.0).into_iter();
@@ -205,11 +206,11 @@ impl Kind for Polyline {
         })
     }
 
-    fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
-        let Some(line) = centreline(outline) else { return Vec::new() };
+    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], _: f64) -> Vec<Ring> {
+        let Ok(line) = centreline(outline) else { return Vec::new() };
         let thickness = |segment: usize| given.get(if uniform(form) { 0 } else { segment }).copied().unwrap_or(f64::NAN);
         let at = |ring: Vec<crate::geometry::polyline::OffsetVertex>| ring.iter().map(|vertex| vertex.at(thickness)).collect();
-        let mut rings: Vec<Vec<[f64; 2]>> = line.outline(!uniform(form)).into_iter().map(at).collect();
+        let mut rings: Vec<Ring> = line.outline(!uniform(form)).into_iter().map(at).collect();
         let sums = rings.iter().map(|ring| crate::geometry::polygon::ring_moments(ring, [0.0; 2])).reduce(|a, b| a + b);
         let Some(sums) = sums else { return rings };
         let centroid = [sums.sy / sums.area, sums.sx / sums.area];

@@ -4,6 +4,7 @@ use super::build::monomial;
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
+use crate::geometry::polygon::Ring;
 
 /// The rectangle b × h.
 pub struct Rectangle;
@@ -53,7 +54,7 @@ impl Kind for Rectangle {
         true
     }
 
-    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, _: &Form, given: &[f64], _: &[Ring], _: f64) -> Vec<Ring> {
         let (x, y) = (given[0] / 2.0, given[1] / 2.0);
         vec![vec![[-x, -y], [x, -y], [x, y], [-x, y]]]
     }

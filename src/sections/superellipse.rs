@@ -7,6 +7,7 @@ use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
 use crate::geometry::Superellipse as Curve;
+use crate::geometry::polygon::Ring;
 
 /// The solid |x/a|^r + |y/b|^r ≤ 1.
 pub struct Superellipse;
@@ -59,13 +60,13 @@ impl Kind for Superellipse {
         true
     }
 
-    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, _: &Form, given: &[f64], _: &[Ring], tolerance: f64) -> Vec<Ring> {
         let [a, b, r] = *given else { return Vec::new() };
         let ring = Curve::new(a, b, r).and_then(|curve| curve.polygon(tolerance));
         ring.into_iter().collect()
     }
 
-    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[Ring]) -> Vec<Ring> {
         let [a, b, r] = *given else { return Vec::new() };
         Curve::new(a, b, r).map(|curve| curve.polygon_of_equal_area(super::QUARTER)).into_iter().collect()
     }

@@ -4,6 +4,7 @@ use super::build::{monomial, symmetric_modulus};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
+use crate::geometry::polygon::Ring;
 
 /// The T section, flange on top.
 pub struct Tee;
@@ -204,7 +205,7 @@ impl Kind for Tee {
         !form.dimensions.contains(&"h")
     }
 
-    fn rings(&self, form: &Form, given: &[f64], outline: &[[f64; 2]], _: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], _: f64) -> Vec<Ring> {
         let of = |name| evaluate(self, form, given, outline, name);
         let names = [of("tw"), of("b"), of("tf"), of("y_top"), of("y_bottom")];
         let [Some(tw), Some(b), Some(tf), Some(top), Some(bottom)] = names else { return Vec::new() };

@@ -9,13 +9,19 @@ struct Case {
     kind: &'static str,
     form: usize,
     given: &'static [f64],
-    outline: &'static [[f64; 2]],
+    outline: &'static [&'static [[f64; 2]]],
 }
 
-const ANGLE: &[[f64; 2]] = &[[0.0, 0.0], [0.6, 0.0], [0.6, 0.1], [0.1, 0.1], [0.1, 1.0], [0.0, 1.0]];
-const CHANNEL: &[[f64; 2]] = &[[0.4, 0.0], [0.0, 0.0], [0.0, 1.0], [0.5, 1.1]];
-const RING: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [1.2, 0.7], [0.3, 0.9], [0.0, 0.0]];
-const STEPPED: &[[f64; 2]] = &[[0.0, 0.0], [0.5, 0.0], [1.0, 0.02], [1.0, 0.8]];
+const ANGLE: &[&[[f64; 2]]] = &[&[[0.0, 0.0], [0.6, 0.0], [0.6, 0.1], [0.1, 0.1], [0.1, 1.0], [0.0, 1.0]]];
+const CHANNEL: &[&[[f64; 2]]] = &[&[[0.4, 0.0], [0.0, 0.0], [0.0, 1.0], [0.5, 1.1]]];
+/// With a triangle and a square cut out, the second anticlockwise.
+const PLATE: &[&[[f64; 2]]] = &[
+    &[[0.0, 0.0], [0.8, -0.1], [1.0, 0.4], [0.6, 0.9], [0.1, 0.7]],
+    &[[0.2, 0.1], [0.4, 0.3], [0.4, 0.1]],
+    &[[0.5, 0.4], [0.7, 0.4], [0.7, 0.6], [0.5, 0.6]],
+];
+const RING: &[&[[f64; 2]]] = &[&[[0.0, 0.0], [1.0, 0.0], [1.2, 0.7], [0.3, 0.9], [0.0, 0.0]]];
+const STEPPED: &[&[[f64; 2]]] = &[&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.02], [1.0, 0.8]]];
 
 const CASES: &[Case] = &[
     Case { kind: "rectangle", form: 0, given: &[0.2, 0.5], outline: &[] },
@@ -31,12 +37,18 @@ const CASES: &[Case] = &[
     Case { kind: "tube", form: 0, given: &[0.3, 0.02], outline: &[] },
     Case { kind: "polygon", form: 0, given: &[0.7], outline: ANGLE },
     Case { kind: "polygon", form: 1, given: &[0.7, 1.3], outline: ANGLE },
+    Case { kind: "polygon", form: 0, given: &[0.7], outline: PLATE },
+    Case { kind: "polygon", form: 1, given: &[0.7, 1.3], outline: PLATE },
     Case { kind: "polyline", form: 0, given: &[0.05], outline: CHANNEL },
     Case { kind: "polyline", form: 3, given: &[0.05, 0.03, 0.04], outline: CHANNEL },
     Case { kind: "polyline", form: 0, given: &[0.05], outline: RING },
     Case { kind: "polyline", form: 4, given: &[0.05, 0.03, 0.04, 0.05], outline: RING },
     Case { kind: "polyline", form: 3, given: &[0.05, 0.03, 0.04], outline: STEPPED },
 ];
+
+fn rings(outline: &[&[[f64; 2]]]) -> Vec<Ring> {
+    outline.iter().map(|ring| ring.to_vec()).collect()
+}
 
 impl Case {
     fn kind(&self) -> &'static dyn Kind {
@@ -47,8 +59,12 @@ impl Case {
         &self.kind().forms()[self.form]
     }
 
+    fn outline(&self) -> Vec<Ring> {
+        rings(self.outline)
+    }
+
     fn value(&self, name: &str) -> Option<f64> {
-        evaluate(self.kind(), self.form(), self.given, self.outline, name)
+        evaluate(self.kind(), self.form(), self.given, &self.outline(), name)
     }
 
     fn curved(&self) -> bool {
@@ -59,7 +75,7 @@ impl Case {
 #[test]
 fn properties_are_those_of_the_outline() {
     for case in CASES {
-        let rings = case.kind().rings(case.form(), case.given, case.outline, 1e-8);
+        let rings = case.kind().rings(case.form(), case.given, &case.outline(), 1e-8);
         let polygon = Polygon::new(rings[0].clone(), rings[1..].to_vec()).unwrap();
         // Rings come oriented and about the centroid.
         assert_eq!(polygon.rings(), rings, "{}", case.kind);
@@ -106,7 +122,7 @@ fn every_listed_name_is_offered_and_no_other() {
             assert!(case.kind().properties().contains(dimension) && case.value(dimension).is_some(), "{} {dimension}", case.kind);
         }
         assert_eq!(case.value("nonsense"), None);
-        assert_eq!(case.kind().defect(case.form(), case.given, case.outline), None, "{}", case.kind);
+        assert_eq!(case.kind().defect(case.form(), case.given, &case.outline()), None, "{}", case.kind);
     }
 }
 
@@ -115,7 +131,7 @@ fn parts_make_up_the_area() {
     for case in CASES {
         let mut graph = Graph::new();
         let dimensions: Vec<NodeId> = case.given.iter().map(|value| graph.constant(*value)).collect();
-        let given = Given { form: case.form(), dimensions: &dimensions, outline: case.outline };
+        let given = Given { form: case.form(), dimensions: &dimensions, outline: &case.outline() };
         let parts = case.kind().parts(&mut graph, &given);
         let sum: f64 = parts.iter().map(|part| graph.as_constant(*part).unwrap()).sum();
         assert!((sum - case.value("A").unwrap()).abs() < 1e-15, "{}", case.kind);
@@ -135,7 +151,8 @@ fn parts_make_up_the_area() {
 fn property_tape(case: &Case, name: &str) -> (tape::Tape, tape::Binding) {
     let mut graph = Graph::new();
     let dimensions: Vec<NodeId> = (0..case.given.len() as u32).map(|slot| graph.input(slot)).collect();
-    let given = Given { form: case.form(), dimensions: &dimensions, outline: case.outline };
+    let outline = case.outline();
+    let given = Given { form: case.form(), dimensions: &dimensions, outline: &outline };
     let node = case.kind().property(&mut graph, &given, name).unwrap();
     tape::Tape::compile(&graph, node).unwrap()
 }
@@ -224,9 +241,9 @@ fn torsion_and_shear_as_accurate_as_documented() {
 
 #[test]
 fn defects_are_told() {
-    let defect = |kind_name: &str, form: usize, given: &[f64], outline: &[[f64; 2]]| {
+    let defect = |kind_name: &str, form: usize, given: &[f64], outline: &[&[[f64; 2]]]| {
         let kind = kind(kind_name).unwrap();
-        kind.defect(&kind.forms()[form], given, outline)
+        kind.defect(&kind.forms()[form], given, &rings(outline))
     };
     assert_eq!(defect("tube", 0, &[0.1, 0.06], &[]).unwrap(), "di is -0.01999999999999999; it must be positive");
     assert_eq!(defect("circle", 0, &[0.0], &[]).unwrap(), "d is 0; it must be positive");
@@ -234,11 +251,11 @@ fn defects_are_told() {
     assert!(defect("polyline", 0, &[1.0], CHANNEL).unwrap().starts_with("clear is"));
     assert!(defect("polyline", 2, &[0.1, 0.1], CHANNEL).unwrap().starts_with("2 thicknesses for 3 segments"));
     let hook = [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0], [0.0, 0.2]];
-    assert!(defect("polyline", 0, &[0.5], &hook).unwrap().contains("crosses or touches itself"));
-    let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+    assert!(defect("polyline", 0, &[0.5], &[&hook]).unwrap().contains("crosses or touches itself"));
+    let bow = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
     let polygon = kind("polygon").unwrap();
-    assert!(polygon.has_outline() && polygon.outline_defect(&polygon.forms()[0], &bow).unwrap().contains("edges 1 and 3"));
-    assert_eq!(polygon.outline_defect(&polygon.forms()[0], ANGLE), None);
+    assert!(polygon.has_outline() && polygon.outline_defect(&polygon.forms()[0], &[bow]).unwrap().contains("edges 1 and 3"));
+    assert_eq!(polygon.outline_defect(&polygon.forms()[0], &rings(PLATE)), None);
 }
 
 #[test]

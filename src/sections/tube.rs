@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::build::{monomial, symmetric_modulus};
 use super::{Form, Given, Kind, circle};
 use crate::expression::graph::{Graph, NodeId};
+use crate::geometry::polygon::Ring;
 
 /// The round tube.
 pub struct Tube;
@@ -54,17 +55,17 @@ impl Kind for Tube {
         &["di"]
     }
 
-    fn rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 2]>> {
+    fn rings(&self, _: &Form, given: &[f64], _: &[Ring], tolerance: f64) -> Vec<Ring> {
         rings(given, |d| circle::ring(d, tolerance))
     }
 
-    fn matching_rings(&self, _: &Form, given: &[f64], _: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    fn matching_rings(&self, _: &Form, given: &[f64], _: &[Ring]) -> Vec<Ring> {
         rings(given, circle::matching_ring)
     }
 }
 
 /// The outer circle and, clockwise, the hole.
-fn rings(given: &[f64], ring: impl Fn(f64) -> Option<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+fn rings(given: &[f64], ring: impl Fn(f64) -> Option<Vec<[f64; 2]>>) -> Vec<Ring> {
     let hole = ring(given[0] - 2.0 * given[1]).map(|mut hole| {
         hole.reverse();
         hole

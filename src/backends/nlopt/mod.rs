@@ -1,10 +1,11 @@
 //! NLopt's algorithms behind [`Backend`]. The only room that names NLopt.
 //!
 //! NLopt's status is text to show. `auto` goes on, with restarts from the best point and with other algorithms, until
-//! the stop test handed in (the certificate) passes; see `plan`.
+//! the stop test handed in (the certificate) passes; see `plan`. Models that fall apart are solved part by part; see `components`.
 
 mod algorithms;
 mod attempt;
+mod components;
 mod driver;
 mod ffi;
 mod form;
@@ -57,7 +58,7 @@ impl Backend for Nlopt {
         let mut solution = match self.refusal(job.algorithm, model).or_else(|| odd_start(model, job.start)) {
             Some(refusal) => Solution { termination: Termination::Refused, message: refusal, ..blank(job) },
             None if algorithms::is_fixed(model.meta()) => fixed(job),
-            None => run(model, job),
+            None => components::solve(model, job).unwrap_or_else(|| run(model, job)),
         };
         solution.seconds = began.elapsed().as_secs_f64();
         solution

@@ -56,6 +56,7 @@ fn solve(model: &dyn Model, options: &Options<'_>) -> (Solution, Vec<f64>) {
         max_iterations: 500_000,
         budget: options.budget,
         stop_test: options.stop_test,
+        part_test: None,
         observer: &mut observer,
     };
     let solution = Nlopt.solve(model, &mut job);

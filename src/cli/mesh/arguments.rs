@@ -219,13 +219,14 @@ pub struct RibLimits {
     /// Stiffness: each line, as a beam between its ends, may sag by its span over this
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub sag_ratio: Option<f64>,
-    /// Slenderness: h over b of rectangles; webs of H beams 5 times, flanges 4 times this
+    /// Slenderness: h over b of rectangles and superellipses; of webs of H beams and walls of boxes 5 times, of flanges 4
+    /// times (boxes: 5), of webs of tees 2 times, of diameters of tubes 10 times this
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub slenderness: Option<f64>,
     /// Largest change of height per length of rib
     #[arg(long, value_name = "SLOPE", allow_negative_numbers = true)]
     pub taper_slope: Option<f64>,
-    /// Least thickness: b of rectangles, web and flanges of H beams
+    /// Least thickness: of walls, webs and flanges, or the width of solid sections
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub thickness: Option<f64>,
 }

@@ -61,7 +61,10 @@ pub fn bounds(text: &str) -> Result<Bounds, String> {
 
 /// A kind of section that problem folders can be made for.
 pub fn kind(text: &str) -> Result<SectionKind, String> {
-    SectionKind::parse(text).ok_or_else(|| "ribs can be made of: rectangle, h-beam".into())
+    SectionKind::parse(text).ok_or_else(|| {
+        let known = SectionKind::ALL.map(SectionKind::name).join(", ");
+        format!("ribs can be made of: {known}; for others write their points into sections.csv")
+    })
 }
 
 /// A file for rib lines.

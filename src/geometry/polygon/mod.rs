@@ -9,6 +9,9 @@ pub use gradient::VertexGradient;
 pub use moments::{RingMoments, SectionProperties, ring_moments};
 pub use validity::{Defect, PolygonError};
 
+/// Vertices of a closed curve, in order; the last is not the first again.
+pub type Ring = Vec<[f64; 2]>;
+
 /// A valid polygon: one outer ring, anticlockwise, and holes, clockwise. Rings are not closed by repeating their first point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {

@@ -166,6 +166,7 @@ impl Assembly<'_> {
         }
         let mut known: Vec<&str> = kind.forms().iter().flat_map(|form| form.dimensions.iter().copied()).collect();
         known.extend(kind.has_outline().then_some("points"));
+        known.extend(kind.takes_holes().then_some("holes"));
         known.sort_unstable();
         known.dedup();
         let unknown: Vec<&Given> = given.iter().filter(|one| !known.contains(&one.name)).collect();
@@ -301,6 +302,11 @@ impl Assembly<'_> {
             let name = &self.problem.ribs.names[r as usize];
             let message = format!("rib `{name}` joins sections of two kinds: {} and {}", kind(from), kind(to));
             self.findings.mistake(place, message, "a rib runs between two sections of one kind");
+        } else if self.problem.outline(from) != self.problem.outline(to) {
+            // Neither a solid between them nor its prismatoid volume would be defined.
+            let message = format!("rib `{}` joins sections drawn by different points", self.problem.ribs.names[r as usize]);
+            let help = "draw both by the same points; their dimensions (scale, thickness) may differ";
+            self.findings.mistake(place, message, help);
         }
         self.problem.ribs.from[r as usize] = from;
         self.problem.ribs.to[r as usize] = to;

@@ -3,42 +3,49 @@
 use std::sync::Arc;
 
 use super::Assembly;
+use crate::geometry::polygon::Ring;
 use crate::input::declaration::{Name, PointsEntry};
+use crate::input::fields::Scalar;
 use crate::input::source::Place;
 use crate::input::table::Row;
 use crate::sections::{self, Form};
 
-/// Points of one section; the list is `None` after a mistake in it.
+/// Points of one section, ring by ring; `None` after a mistake in them.
 pub(super) struct Points {
-    pub list: Option<Arc<Vec<[f64; 2]>>>,
+    pub rings: Option<Arc<Vec<Ring>>>,
     pub place: Place,
 }
 
 impl Assembly<'_> {
     /// The points of the problem file.
     pub(super) fn points(&mut self, entry: &PointsEntry) -> Points {
-        let constants = entry.list.iter().flatten().map(|pair| {
+        let rings: Vec<Option<Ring>> = entry.rings.iter().flatten().map(|ring| self.ring(ring)).collect();
+        let rings = rings.into_iter().collect::<Option<Vec<_>>>().filter(|_| entry.rings.is_some());
+        Points { rings: rings.map(Arc::new), place: entry.place }
+    }
+
+    /// All mistakes of a ring's points are told.
+    fn ring(&mut self, points: &[[Scalar; 2]]) -> Option<Ring> {
+        let constants = points.iter().map(|pair| {
             let [x, y] = pair.each_ref().map(|scalar| self.constant(scalar));
             Some([x?, y?])
         });
-        let constants: Vec<Option<[f64; 2]>> = constants.collect();
-        let list = constants.into_iter().collect::<Option<Vec<_>>>().filter(|_| entry.list.is_some());
-        Points { list: list.map(Arc::new), place: entry.place }
+        constants.collect::<Vec<_>>().into_iter().collect()
     }
 
-    /// The points in a table's cell; equal texts share one list.
+    /// The points in a table's cell; equal texts share one outline.
     pub(super) fn points_cell(&mut self, row: &Row, at: usize) -> Option<Points> {
         let (text, place) = (row.field(at), row.place(at));
         if text.is_empty() {
             return None;
         }
         if let Some(known) = self.points.get(text) {
-            return Some(Points { list: known.clone(), place });
+            return Some(Points { rings: known.clone(), place });
         }
         let read = crate::input::points(text);
-        let list = read.map_err(|message| self.findings.mistake(place, message, "as in 0 0; 0.4 0; 0.4 0.3")).ok().map(Arc::new);
-        self.points.insert(text.to_owned(), list.clone());
-        Some(Points { list, place })
+        let rings = read.map_err(|message| self.findings.mistake(place, message, "as in 0 0; 0.4 0; 0.4 0.3")).ok().map(Arc::new);
+        self.points.insert(text.to_owned(), rings.clone());
+        Some(Points { rings, place })
     }
 
     /// Enters a section's points. `form` is `None` after a mistake in the dimensions.
@@ -54,13 +61,17 @@ impl Assembly<'_> {
                 let help = format!("kinds drawn by points: {}", by_points.collect::<Vec<_>>().join(", "));
                 self.findings.mistake(points.place, format!("a section of kind {kind} has no points"), help);
             }
-            Some(Points { list: Some(list), place }) => {
+            Some(Points { rings: Some(rings), place }) => {
                 let kind = sections::kind(kind);
-                if let Some(reason) = form.and_then(|form| kind?.outline_defect(form, &list)) {
+                if rings.len() > 1 && kind.is_some_and(|kind| !kind.takes_holes()) {
+                    let message = format!("section `{}`: a {} takes no holes", name.text, kind.map_or("", |kind| kind.name()));
+                    self.findings.mistake(place, message, "a closed line of walls has its hole by itself; polygons take holes");
+                }
+                if let Some(reason) = form.and_then(|form| kind?.outline_defect(form, &rings)) {
                     let help = "list the corners in order, once round or along the line, without crossings";
                     self.findings.mistake(place, format!("section `{}`: {reason}", name.text), help);
                 }
-                self.problem.sections.outlines.insert(s, list);
+                self.problem.sections.outlines.insert(s, rings);
             }
             _ => {}
         }

@@ -14,9 +14,35 @@ pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry
     let what = format!("section `{}`", field.key);
     let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
     let data = data(&mut fields, reader);
-    let points = fields.take("points").map(|field| PointsEntry { list: points(&field, reader), place: field.place });
+    let points = outline(&mut fields, reader);
     let dimensions = fields.rest().iter().flat_map(|field| dimensions(field, reader)).collect();
     Some(SectionEntry { name: name(field), kind, points, dimensions, data })
+}
+
+/// `points` and `holes`.
+fn outline(fields: &mut Fields, reader: &mut Reader) -> Option<PointsEntry> {
+    let (outer, holes) = (fields.take("points"), fields.take("holes"));
+    let place = outer.as_ref().or(holes.as_ref())?.place;
+    let Some(outer) = outer else {
+        reader.findings.mistake(place, "`holes` without `points`", "give the outer ring as points = [[x, y], [x, y], …]");
+        return Some(PointsEntry { rings: None, place });
+    };
+    let (outer, holes) = (points(&outer, reader), holes.map_or(Some(Vec::new()), |field| rings(&field, reader)));
+    let rings = outer.zip(holes).map(|(outer, holes)| std::iter::once(outer).chain(holes).collect());
+    Some(PointsEntry { rings, place })
+}
+
+/// `[[[x, y], …], …]`; `None` after a mistake.
+fn rings(field: &Field, reader: &mut Reader) -> Option<Vec<Vec<[Scalar; 2]>>> {
+    let items = field.items().filter(|items| items.iter().all(is_ring));
+    let Some(items) = items else { return field.expected("a list of rings: [[[1, 1], [2, 1], [2, 2]]]", reader) };
+    let read: Vec<Option<_>> = items.iter().map(|item| points(item, reader)).collect();
+    read.into_iter().collect()
+}
+
+/// A list of lists, or what only a look at its points can refuse.
+fn is_ring(field: &Field) -> bool {
+    field.items().is_some_and(|points| points.iter().all(|point| point.items().is_some()))
 }
 
 /// `[[x, y], …]`; `None` after a mistake.

@@ -124,7 +124,7 @@ fn point(x: f64, y: f64, z: f64) -> Result<Vector, String> {
     if vector.iter().all(|c| c.abs() <= LARGEST) {
         Ok(vector)
     } else {
-        Err(format!("the point ({x}, {y}, {z}) is not finite, or larger than {LARGEST:e}"))
+        Err(format!("the point ({x:?}, {y:?}, {z:?}) is not finite, or larger than {LARGEST:e}"))
     }
 }
 

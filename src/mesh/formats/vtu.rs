@@ -13,26 +13,27 @@ pub struct CellData {
     pub values: Vec<f64>,
 }
 
-/// Writes points, faces and their numbers; flagged edges become line cells (with NaN for every number).
+/// Writes points, faces and their numbers; flagged edges become line cells (with NaN for every number). Faces with as many
+/// corners stand together, lines first: readers make a block of every run of one kind.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_vtu(out: &mut impl Write, mesh: &PolygonMesh, data: &[CellData]) -> io::Result<()> {
-    let cells = mesh.face_count() + mesh.ribs.len();
+    let cells = ordered(mesh);
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(out, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>")?;
-    writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">", mesh.vertices.len())?;
+    writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.vertices.len(), cells.len())?;
     writeln!(out, "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">")?;
     for v in &mesh.vertices {
         writeln!(out, "{} {} {}", v.x, v.y, v.z)?;
     }
     writeln!(out, "</DataArray></Points>\n<Cells>")?;
-    write_cells(out, mesh)?;
+    write_cells(out, &cells)?;
     writeln!(out, "</Cells>\n<CellData>")?;
     for column in data {
         array(out, "Float64", &column.name)?;
-        for cell in 0..cells {
-            match column.values.get(cell).filter(|value| value.is_finite()) {
+        for (face, _) in &cells {
+            match column.values.get(*face).filter(|value| value.is_finite()) {
                 Some(value) => writeln!(out, "{value}")?,
                 None => writeln!(out, "nan")?,
             }
@@ -42,23 +43,30 @@ pub fn write_vtu(out: &mut impl Write, mesh: &PolygonMesh, data: &[CellData]) ->
     writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-fn write_cells(out: &mut impl Write, mesh: &PolygonMesh) -> io::Result<()> {
-    let cells = || mesh.faces().chain(mesh.ribs.iter().map(|rib| rib.as_slice()));
+/// Faces and flagged edges by number of corners, each with its number; edges are numbered past the last face.
+fn ordered(mesh: &PolygonMesh) -> Vec<(usize, &[u32])> {
+    let cells = mesh.faces().chain(mesh.ribs.iter().map(|rib| rib.as_slice()));
+    let mut cells: Vec<(usize, &[u32])> = cells.enumerate().collect();
+    cells.sort_by_key(|(_, corners)| corners.len());
+    cells
+}
+
+fn write_cells(out: &mut impl Write, cells: &[(usize, &[u32])]) -> io::Result<()> {
     array(out, "Int64", "connectivity")?;
-    for cell in cells() {
+    for (_, cell) in cells {
         let words: Vec<String> = cell.iter().map(u32::to_string).collect();
         writeln!(out, "{}", words.join(" "))?;
     }
     writeln!(out, "</DataArray>")?;
     array(out, "Int64", "offsets")?;
     let mut end = 0;
-    for cell in cells() {
+    for (_, cell) in cells {
         end += cell.len();
         writeln!(out, "{end}")?;
     }
     writeln!(out, "</DataArray>")?;
     array(out, "UInt8", "types")?;
-    for cell in cells() {
+    for (_, cell) in cells {
         writeln!(out, "{}", cell_type(cell.len()))?;
     }
     writeln!(out, "</DataArray>")

@@ -5,6 +5,7 @@
 //! ∫ M·m/(E·I) ds, may be at most span/sag_ratio. The integral is `sag` per rib, with 1/I by the trapezoidal rule between
 //! its sections. A closed line counts as two beams of half its length. Slenderness, taper and thickness limits come on top.
 
+mod kinds;
 mod text;
 
 use std::io::Write;
@@ -12,47 +13,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
+pub use kinds::SectionKind;
+
 use super::formats::FormatError;
 use super::formats::create;
 use super::network::{Network, Rib, write_geometry};
-
-/// Kinds of sections ribs can be given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SectionKind {
-    /// b × h.
-    Rectangle,
-    /// tw, hw, b, tf.
-    HBeam,
-}
-
-impl SectionKind {
-    /// The kind's name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            SectionKind::Rectangle => "rectangle",
-            SectionKind::HBeam => "h-beam",
-        }
-    }
-
-    /// The kind of this name.
-    pub fn parse(name: &str) -> Option<SectionKind> {
-        [SectionKind::Rectangle, SectionKind::HBeam].into_iter().find(|kind| kind.name() == name)
-    }
-
-    /// Its dimensions with default bounds and starts, in metres.
-    fn dimensions(self) -> Vec<Bounds> {
-        let bounds = |name: &str, lower, upper, start| Bounds { dimension: name.into(), lower, upper, start };
-        match self {
-            SectionKind::Rectangle => vec![bounds("b", 0.02, 0.5, 0.1), bounds("h", 0.04, 1.5, 0.3)],
-            SectionKind::HBeam => vec![
-                bounds("tw", 0.004, 0.05, 0.01),
-                bounds("hw", 0.04, 1.5, 0.3),
-                bounds("b", 0.03, 0.5, 0.15),
-                bounds("tf", 0.004, 0.05, 0.015),
-            ],
-        }
-    }
-}
 
 /// Bounds and start of one dimension, the same at all sections.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,11 +47,12 @@ pub struct Options {
     pub load: f64,
     /// Largest sag is span over this.
     pub sag_ratio: f64,
-    /// Rectangle: h ≤ this·b. H beam: web height at most 5 × this, flange width at most 4 × this, of their thickness.
+    /// Rectangle: h ≤ this·b; superellipse alike. Webs of H beams and walls of boxes at most 5 × this, flanges 4 × (of boxes 5 ×), webs of
+    /// tees 2 ×, diameters of tubes 10 × this, of their thickness.
     pub slenderness: f64,
     /// Largest change of height per length of rib.
     pub taper_slope: f64,
-    /// Rectangle: b is at least this. H beam: web and flanges are.
+    /// The width of solid kinds, the walls of others are at least this.
     pub thickness: f64,
     /// The title.
     pub title: String,
@@ -104,10 +70,7 @@ impl Options {
             sag_ratio: 300.0,
             slenderness: 8.0,
             taper_slope: 0.1,
-            thickness: match kind {
-                SectionKind::Rectangle => 0.03,
-                SectionKind::HBeam => 0.006,
-            },
+            thickness: kind.thickness(),
             title: "Ribs of a quad mesh".into(),
         }
     }

@@ -2,27 +2,16 @@
 
 use std::fmt::Write;
 
-use super::{Options, SectionKind};
+use super::Options;
 
 /// Limits as (name, scope, requirement). Heights are `height`, which every kind offers.
-fn limits(options: &Options) -> Vec<(&'static str, &'static str, String)> {
+fn limits(options: &Options) -> Vec<(&'static str, &'static str, &'static str)> {
     let sag = "sum(ribs: load*sag/E*0.5*(1/from.Ix + 1/to.Ix)/(span/sag_ratio)) <= 1";
-    let mut limits = vec![("stiffness", "for = \"ribs\"\nby = \"line\"", sag.to_string())];
-    match options.kind {
-        SectionKind::Rectangle => limits.extend([
-            ("slenderness", "for = \"sections\"", "h <= slenderness*b".into()),
-            ("thickness", "for = \"sections\"", "b >= thickness".into()),
-        ]),
-        SectionKind::HBeam => limits.extend([
-            ("web-slenderness", "for = \"sections\"", "hw <= 5*slenderness*tw".into()),
-            ("flange-slenderness", "for = \"sections\"", "b <= 4*slenderness*tf".into()),
-            ("web-thickness", "for = \"sections\"", "tw >= thickness".into()),
-            ("flange-thickness", "for = \"sections\"", "tw <= tf".into()),
-        ]),
-    }
+    let mut limits = vec![("stiffness", "for = \"ribs\"\nby = \"line\"", sag)];
+    limits.extend(options.kind.limits().iter().map(|(name, require)| (*name, "for = \"sections\"", *require)));
     limits.extend([
-        ("taper-up", "for = \"ribs\"", "to.height - from.height <= taper_slope*length".into()),
-        ("taper-down", "for = \"ribs\"", "from.height - to.height <= taper_slope*length".into()),
+        ("taper-up", "for = \"ribs\"", "to.height - from.height <= taper_slope*length"),
+        ("taper-down", "for = \"ribs\"", "from.height - to.height <= taper_slope*length"),
     ]);
     limits
 }
@@ -30,6 +19,7 @@ fn limits(options: &Options) -> Vec<(&'static str, &'static str, String)> {
 /// problem.toml for these options; numbers are written so that they read back bit for bit.
 pub(super) fn problem(options: &Options) -> String {
     let mut text = String::new();
+    let limits = limits(options);
     // A JSON string is a TOML basic string.
     let title = serde_json::Value::from(options.title.as_str());
     let parameters = [
@@ -41,10 +31,11 @@ pub(super) fn problem(options: &Options) -> String {
         ("thickness", options.thickness),
     ];
     let _ = write!(text, "title = {title}\nminimize = \"volume\"\n\n[parameters]\n");
-    for (name, value) in parameters {
+    // A circle has no slenderness.
+    for (name, value) in parameters.iter().filter(|(name, _)| limits.iter().any(|limit| limit.2.contains(name))) {
         let _ = writeln!(text, "{name} = {value:?}");
     }
-    for (name, scope, require) in limits(options) {
+    for (name, scope, require) in limits {
         let _ = write!(text, "\n[[constraints]]\nname = \"{name}\"\n{scope}\nrequire = \"{require}\"\n");
     }
     text.push_str("\n[tables]\nsections = \"sections.csv\"\nribs = \"ribs.csv\"\n");

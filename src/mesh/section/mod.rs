@@ -42,6 +42,8 @@ pub struct PieceReport {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[allow(missing_docs)]
 pub enum SectionError {
+    #[error("there are no faces to cut; give the solid as a closed mesh")]
+    Empty,
     #[error("face {0} lies in the plane, where the section is not one-valued; move the plane a little")]
     Coplanar(usize),
     #[error("the section does not close at the edge of vertices {} {}: the solid is open or its faces run the wrong way round", .0[0], .0[1])]
@@ -68,6 +70,9 @@ pub enum SectionError {
 /// ```
 pub fn cut(solid: &PolygonMesh, plane: &Plane) -> Result<Vec<Piece>, SectionError> {
     let sides: Vec<Ordering> = solid.vertices.iter().map(|vertex| plane.side(vertex)).collect();
+    if solid.face_count() == 0 {
+        return Err(SectionError::Empty);
+    }
     let in_plane = |face: &[u32]| face.iter().all(|&v| sides[v as usize].is_eq());
     if let Some(f) = solid.faces().position(in_plane) {
         return Err(SectionError::Coplanar(f + 1));

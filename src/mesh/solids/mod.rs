@@ -16,7 +16,7 @@ use super::{NONE, PolygonMesh};
 
 /// A closed curve of a section's boundary: x across the rib, y out of the surface, about the section's origin. Outer rings
 /// run counter-clockwise, holes clockwise.
-pub type Ring = Vec<[f64; 2]>;
+pub type Ring = crate::geometry::polygon::Ring;
 
 /// One sized rib.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ pub struct SizedRib {
 pub struct Solids {
     /// The mesh: one group per rib, its class of utilisation as a second group name.
     pub mesh: PolygonMesh,
-    /// Per face: utilisation, area of the mean of the ends, the tags.
+    /// Per face: utilisation, mean area of the ends, the rib's number from 1, the tags.
     pub data: Vec<CellData>,
     /// What was built.
     pub report: Report,
@@ -116,7 +116,8 @@ struct Builder {
 
 impl Builder {
     fn new(tag_names: &[String]) -> Self {
-        let names = ["utilisation".to_string(), "area".to_string()].into_iter().chain(tag_names.iter().cloned());
+        let own = ["utilisation", "area", "rib_number"].map(String::from);
+        let names = own.into_iter().chain(tag_names.iter().cloned());
         let report = Report {
             solids: 0,
             volume: 0.0,
@@ -142,7 +143,7 @@ impl Builder {
             let face: Vec<u32> = face.iter().map(|v| v + first).collect();
             self.mesh.push_face(&face);
             self.mesh.group_of.push(group);
-            let own = [rib.utilisation.unwrap_or(f64::NAN), mean_area];
+            let own = [rib.utilisation.unwrap_or(f64::NAN), mean_area, f64::from(group + 1)];
             let values = own.into_iter().chain(rib.tags.iter().copied()).chain(std::iter::repeat(f64::NAN));
             self.data.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
         }

@@ -9,6 +9,7 @@ mod profile;
 mod sum;
 mod survey;
 mod template;
+mod volumes;
 mod walk;
 
 use std::sync::{Arc, OnceLock};
@@ -24,6 +25,7 @@ use facts::Facts;
 use groups::{Groups, Kernels};
 use lower::{Context, Item};
 use sum::{Summation, Templates};
+pub use volumes::volumes;
 use walk::Walk;
 
 /// Assembles objective and rows with their derivatives and sparsity patterns.
@@ -225,5 +227,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         row_groups,
         row_origin: rows.origin,
         members: OnceLock::new(),
+        stretches: OnceLock::new(),
     }
 }

@@ -20,6 +20,7 @@ fn solve_within(model: &dyn Model, budget: Budget<'_>) -> Solution {
         max_iterations: 1000,
         budget,
         stop_test: None,
+        part_test: None,
         observer: &mut |_| iterations += 1,
     };
     let solution = Argmin.solve(model, &mut job);

@@ -29,6 +29,7 @@ fn solve_with(model: &dyn Model, budget: Budget<'_>, multipliers: Option<&[f64]>
         max_iterations: 3000,
         budget,
         stop_test: None,
+        part_test: None,
         observer: &mut |_| {},
     };
     Argmin.solve(model, &mut job)

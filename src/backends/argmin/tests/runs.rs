@@ -49,6 +49,7 @@ fn iterations_are_shown_and_limited() {
         max_iterations: 5,
         budget: Budget::default(),
         stop_test: None,
+        part_test: None,
         observer: &mut |iteration| seen.push((iteration.iteration, iteration.objective)),
     };
     let solution = Argmin.solve(&model, &mut job);

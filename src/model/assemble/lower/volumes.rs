@@ -2,12 +2,13 @@
 
 use super::{Item, Lowering, OwnNumber};
 use crate::expression::graph::NodeId;
+use crate::geometry::polygon::Ring;
 use crate::problem::Property;
 use crate::ribs::law::{self, Law};
 use crate::sections::{self, Given};
 
 impl Lowering<'_> {
-    fn given<'b>(&self, section: u32, dimensions: &'b [NodeId], outline: &'b [[f64; 2]]) -> Given<'b> {
+    fn given<'b>(&self, section: u32, dimensions: &'b [NodeId], outline: &'b [Ring]) -> Given<'b> {
         Given { form: sections::form(self.problem.sections.form[section as usize]), dimensions, outline }
     }
 

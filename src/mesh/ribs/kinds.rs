@@ -1,0 +1,138 @@
+//! What each kind of section brings along: dimensions with default bounds, and limits on its proportions.
+
+use super::Bounds;
+
+/// Kinds of sections ribs can be given: those that need no points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionKind {
+    /// b × h.
+    Rectangle,
+    /// tw, hw, b, tf.
+    HBeam,
+    /// tw, hw, b, tf; the flange on top.
+    Tee,
+    /// b × h with webs tw and flanges tf.
+    Box,
+    /// d.
+    Circle,
+    /// d with wall t.
+    Tube,
+    /// Semi-axes a, b, with exponent r = 2.5.
+    Superellipse,
+}
+
+/// A dimension's name, default lower and upper bound and start, in metres.
+type Default = (&'static str, f64, f64, f64);
+
+/// A limit's name and requirement.
+type Limit = (&'static str, &'static str);
+
+/// A row of the table of kinds.
+struct Row {
+    name: &'static str,
+    dimensions: &'static [Default],
+    limits: &'static [Limit],
+    thickness: f64,
+}
+
+impl SectionKind {
+    /// All of them.
+    pub const ALL: [SectionKind; 7] = [
+        SectionKind::Rectangle,
+        SectionKind::HBeam,
+        SectionKind::Tee,
+        SectionKind::Box,
+        SectionKind::Circle,
+        SectionKind::Tube,
+        SectionKind::Superellipse,
+    ];
+
+    /// The kind's name in files.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// The kind of this name.
+    pub fn parse(name: &str) -> Option<SectionKind> {
+        SectionKind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Its dimensions with default bounds and starts, in metres.
+    pub(super) fn dimensions(self) -> Vec<Bounds> {
+        let bounds = |&(name, lower, upper, start): &Default| Bounds { dimension: name.into(), lower, upper, start };
+        self.row().dimensions.iter().map(bounds).collect()
+    }
+
+    /// Names and requirements of the limits on a section's proportions, in `slenderness` and `thickness`.
+    pub(super) fn limits(self) -> &'static [Limit] {
+        self.row().limits
+    }
+
+    /// The default for the least thickness.
+    pub(super) fn thickness(self) -> f64 {
+        self.row().thickness
+    }
+
+    fn row(self) -> Row {
+        match self {
+            SectionKind::Rectangle => Row {
+                name: "rectangle",
+                dimensions: &[("b", 0.02, 0.5, 0.1), ("h", 0.04, 1.5, 0.3)],
+                limits: &[("slenderness", "h <= slenderness*b"), ("thickness", "b >= thickness")],
+                thickness: 0.03,
+            },
+            SectionKind::HBeam => Row {
+                name: "h-beam",
+                dimensions: FLANGED,
+                limits: &[("web-slenderness", "hw <= 5*slenderness*tw"), FLANGE, WEB_THICKNESS, FLANGE_THICKNESS],
+                thickness: 0.006,
+            },
+            SectionKind::Tee => Row {
+                name: "tee",
+                dimensions: FLANGED,
+                limits: &[("web-slenderness", "hw <= 2*slenderness*tw"), FLANGE, WEB_THICKNESS, FLANGE_THICKNESS],
+                thickness: 0.006,
+            },
+            SectionKind::Box => Row {
+                name: "box",
+                dimensions: &[
+                    ("b", 0.05, 0.5, 0.15),
+                    ("h", 0.06, 1.5, 0.3),
+                    ("tw", 0.004, 0.02, 0.008),
+                    ("tf", 0.004, 0.02, 0.008),
+                ],
+                limits: &[
+                    ("web-slenderness", "h <= 5*slenderness*tw"),
+                    ("flange-slenderness", "b <= 5*slenderness*tf"),
+                    WEB_THICKNESS,
+                    ("flange-thickness", "tf >= thickness"),
+                ],
+                thickness: 0.005,
+            },
+            SectionKind::Circle => Row {
+                name: "circle",
+                dimensions: &[("d", 0.02, 1.5, 0.2)],
+                limits: &[("thickness", "d >= thickness")],
+                thickness: 0.03,
+            },
+            SectionKind::Tube => Row {
+                name: "tube",
+                dimensions: &[("d", 0.05, 1.5, 0.2), ("t", 0.003, 0.02, 0.008)],
+                limits: &[("slenderness", "d <= 10*slenderness*t"), ("thickness", "t >= thickness")],
+                thickness: 0.004,
+            },
+            SectionKind::Superellipse => Row {
+                name: "superellipse",
+                dimensions: &[("a", 0.01, 0.25, 0.05), ("b", 0.02, 0.75, 0.15), ("r", 2.5, 2.5, 2.5)],
+                limits: &[("slenderness", "b <= slenderness*a"), ("thickness", "2*a >= thickness")],
+                thickness: 0.03,
+            },
+        }
+    }
+}
+
+const FLANGED: &[Default] =
+    &[("tw", 0.004, 0.05, 0.01), ("hw", 0.04, 1.5, 0.3), ("b", 0.03, 0.5, 0.15), ("tf", 0.004, 0.05, 0.015)];
+const FLANGE: Limit = ("flange-slenderness", "b <= 4*slenderness*tf");
+const WEB_THICKNESS: Limit = ("web-thickness", "tw >= thickness");
+const FLANGE_THICKNESS: Limit = ("flange-thickness", "tw <= tf");
