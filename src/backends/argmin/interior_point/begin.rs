@@ -50,6 +50,8 @@ impl<'a> Engine<'a> {
             Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
         match beginning.multipliers {
             Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
+            // With slacks that begin well inside, zero is as good a guess as least squares, and free.
+            None if form.variables() >= LARGE => start::unit_bound_multipliers(&form, &mut iterate),
             None => {
                 start::unit_bound_multipliers(&form, &mut iterate);
                 start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
