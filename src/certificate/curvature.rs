@@ -123,13 +123,17 @@ pub(super) fn judge(
     choice: &Choice,
 ) -> Result<Curvature, FactorizationError> {
     let (free, held) = (&choice.free, &choice.held);
+    // The rows alone make a far sparser matrix.
+    let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
     let mut kkt = Kkt::new(point, hessian, free, held)?;
-    let dependent = kkt.dependent_rows()?;
-    let mut escape = if kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
+    let mut singular = kkt.bends_down(-ROUNDING)?;
+    // What bends up beyond rounding does not bend down.
+    let mut escape = if singular && kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
     if escape.is_none() && !dependent {
         escape = one_sided(point, active, hessian, choice)?;
     }
-    Ok(Curvature { singular: escape.is_some() || kkt.bends_down(-ROUNDING)?, escape, dependent })
+    singular |= escape.is_some();
+    Ok(Curvature { singular, escape, dependent })
 }
 
 /// Weakly active limits hold on one side only: a direction that leaves one of them inwards must not bend down either (or a

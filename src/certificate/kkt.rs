@@ -77,7 +77,7 @@ impl<'a> Kkt<'a> {
         let mut positions: Vec<_> = (0..p + held.len() as u32).map(|k| (k, k)).collect();
         positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
         positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
-        let matrix = Symmetric::new(free.len() + held.len(), &positions)?;
+        let matrix = Symmetric::curved(free.len() + held.len(), &positions)?;
         Ok(Kkt { point, free, hessian, rows, size, slopes, held: held.len(), matrix })
     }
 

@@ -57,6 +57,14 @@ impl<'a> Certifier<'a> {
         Certifier { origin: Origin::new(model), class, tolerances }
     }
 
+    /// The row multipliers that make `x` as stationary as it allows, without judging it.
+    ///
+    /// # Errors
+    /// The model has no value or derivative at `x`.
+    pub fn row_multipliers(&self, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        Ok(multipliers::find(&Point::new(&self.origin, x)?, None).rows)
+    }
+
     /// Whether `x` passes; cheap where it is far from feasible. A stop test for solvers.
     pub fn accepts(&self, x: &[f64]) -> bool {
         self.primal_infeasibility(x).is_some_and(|worst| worst <= self.tolerances.constraint)
