@@ -222,9 +222,17 @@ fn solids_of_sections_drawn_by_points() {
     let names: Vec<String> = fs::read_to_string(path.join("r/sections.csv")).unwrap().lines().skip(1).map(first_cell).collect();
     let channel = "0.05 0; 0 0; 0 0.2; 0.05 0.2";
     let tables = [
-        ("polygon", "scale_x.lower,scale_x.upper,scale_y.lower,scale_y.upper,points", "0.1,9,0.1,9,0 0; .1 0; .1 .2; 0 .2 | .03 .05; .07 .05; .05 .1"),
+        (
+            "polygon",
+            "scale_x.lower,scale_x.upper,scale_y.lower,scale_y.upper,points",
+            "0.1,9,0.1,9,0 0; .1 0; .1 .2; 0 .2 | .03 .05; .07 .05; .05 .1",
+        ),
         ("polyline", "thickness.lower,thickness.upper,points", &format!("0.001,0.03,{channel}")),
-        ("polyline", "thickness[1],thickness[2].lower,thickness[2].upper,thickness[3],points", &format!("0.01,0.001,0.03,0.01,{channel}")),
+        (
+            "polyline",
+            "thickness[1],thickness[2].lower,thickness[2].upper,thickness[3],points",
+            &format!("0.01,0.001,0.03,0.01,{channel}"),
+        ),
     ];
     for (kind, header, cells) in tables {
         let rows: String = names.iter().map(|name| format!("{name},{kind},{cells}\n")).collect();

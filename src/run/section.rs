@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{RunError, Subject};
-use crate::input;
 use crate::geometry::polygon::Ring;
+use crate::input;
 use crate::problem::nearest::did_you_mean;
 use crate::report::answer::EarlierAnswer;
 use crate::report::cross_section::CrossSection;

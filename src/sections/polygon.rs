@@ -3,8 +3,8 @@
 use super::build::monomial;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
-use crate::geometry::polygon::{PolygonError, Ring};
 use crate::geometry::Polygon as Shape;
+use crate::geometry::polygon::{PolygonError, Ring};
 
 /// A polygon given by the points of its rings, scaled.
 pub struct Polygon;
