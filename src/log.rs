@@ -1,5 +1,6 @@
 //! The iteration log: one CSV row per iteration, on disk as soon as it is known.
 
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -75,7 +76,20 @@ impl IterationLog {
 /// assert_eq!(ribopt::log::exact(1e300), "1e300");
 /// ```
 pub fn exact(value: f64) -> String {
-    if value.is_nan() { String::new() } else { format!("{value:?}") }
+    let mut text = String::new();
+    push_exact(&mut text, value);
+    text
+}
+
+/// Appends what [`exact`] says.
+pub fn push_exact(text: &mut String, value: f64) {
+    if (1e-4..1e15).contains(&value.abs()) {
+        // The same digits, sooner.
+        text.push_str(zmij::Buffer::new().format_finite(value));
+    } else if !value.is_nan() {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{value:?}");
+    }
 }
 
 fn write_row(file: &mut File, cells: &[String]) -> io::Result<()> {
@@ -115,6 +129,15 @@ mod tests {
             prop_assert_eq!(rows[0][2].parse::<f64>().unwrap().to_bits(), f.to_bits());
             for (j, value) in x.iter().enumerate() {
                 prop_assert_eq!(rows[0][COLUMNS.len() + j].parse::<f64>().unwrap().to_bits(), value.to_bits());
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn exact_text_is_the_shortest(value in proptest::num::f64::ANY, size in -20..20_i32) {
+            for value in [value, (value % 1.0) * 10f64.powi(size)].into_iter().filter(|value| !value.is_nan()) {
+                prop_assert_eq!(exact(value), format!("{value:?}"));
             }
         }
     }

@@ -169,3 +169,18 @@ fn check_names_the_term_that_misses_a_class() {
     assert!(text.contains("class: nonlinear") && text.contains("not shown to be a geometric program: constraint r1"), "{text}");
     assert!(text.contains("not shown to be convex: the objective"), "{text}");
 }
+
+#[test]
+fn a_flange_that_vanishes_is_named_with_the_remedy() {
+    let section = |name: &str| {
+        format!(
+            "[sections.{name}]\nkind = \"h-beam\"\nb1 = {{ lower = 4, upper = 50 }}\nh1 = {{ lower = 50, upper = 1500 }}\n\
+             b2 = {{ lower = 50, upper = 600 }}\nh2 = {{ lower = 80, upper = 1700 }}\n"
+        )
+    };
+    let rib = "[[ribs]]\nname = \"r\"\nfrom = \"left\"\nto = \"right\"\nlength = 4500\n";
+    let row = "[[constraints]]\nname = \"w\"\nfor = \"sections\"\nrequire = \"Wx >= 1.4e6\"\n";
+    let (code, result) = solve(&format!("{}{}{rib}{row}", section("left"), section("right")));
+    assert_eq!(code, 1, "the frustum's root has no slope where a flange is gone: nothing can be proved there");
+    assert!(result["remedy"].as_str().unwrap().contains("h2 − "), "{result}");
+}

@@ -41,7 +41,8 @@ impl Active<'_> {
         (0..self.bounds.len()).filter(|&j| self.bounds[j] == Side::None).collect()
     }
 
-    fn held(&self, point: &Point<'_>) -> Vec<usize> {
+    /// The rows rested on.
+    pub(super) fn held(&self, point: &Point<'_>) -> Vec<usize> {
         (0..self.rows.len()).filter(|&i| self.rows[i] != Side::None && point.slopes[i] > 0.0).collect()
     }
 }
@@ -61,9 +62,8 @@ pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result
 }
 
 /// The whole test.
-pub(super) fn examine(point: &Point<'_>, active: &Active<'_>) -> Result<Curvature, EvaluationError> {
-    let hessian = Hessian::of(point, active.multipliers)?;
-    Ok(judge(point, active, &hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true }))
+pub(super) fn examine(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Curvature {
+    judge(point, active, hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true })
 }
 
 fn judge(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Result<Curvature, FactorizationError> {
@@ -90,7 +90,7 @@ fn one_sided(
     let weak = 1e-6 * point.scale();
     let is_weak_bound = |&j: &usize| {
         let one_sided = matches!(active.bounds[j], Side::Lower | Side::Upper);
-        one_sided && (active.multipliers.bounds[j] * point.d[j]).abs() <= weak
+        one_sided && (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak
     };
     let is_weak_row =
         |&&i: &&usize| active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak;
@@ -135,7 +135,15 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
-    fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
+    /// The same, its largest row of magnitudes being 1.
+    pub(super) fn normalised(&self) -> Hessian {
+        let largest = self.size.iter().fold(0.0, |most: f64, size| most.max(*size));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let share = |all: &[f64]| all.iter().map(|value| value / unit).collect();
+        Hessian { values: share(&self.values), size: share(&self.size) }
+    }
+
+    pub(super) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let part = |weight: f64, keep: &dyn Fn(f64) -> bool| {
             let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();
@@ -145,7 +153,7 @@ impl Hessian {
         let parts = [part(1.0, &|_| false)?, part(0.0, &|y| y > 0.0)?, part(0.0, &|y| y < 0.0)?];
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
         for (at, (row, column)) in pattern.iter().enumerate() {
-            let scale = point.d[row] * point.d[column] / point.scale();
+            let scale = point.sizes[row] * point.sizes[column] / point.scale();
             let magnitude: f64 = parts.iter().map(|part| (part[at] * scale).abs()).sum();
             hessian.values[at] = parts.iter().map(|part| part[at] * scale).sum();
             hessian.size[row] += magnitude;

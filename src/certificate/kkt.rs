@@ -3,7 +3,7 @@
 use super::curvature::Hessian;
 use super::matrix::Symmetric;
 use super::point::Point;
-use crate::linear_algebra::FactorizationError;
+use crate::linear_algebra::{FactorizationError, Inertia};
 
 /// −δ of the dual block: dependent rows neither break the factorisation nor change the count.
 const DUAL: f64 = 1e-11;
@@ -12,6 +12,9 @@ const DEPENDENT: f64 = 1e-12;
 /// Yardstick where nothing bends, in units of σ.
 const FLOOR: f64 = 1e-5;
 const POWER_STEPS: usize = 60;
+/// For flat directions: the shift that keeps the matrix regular, and the steps of inverse iteration.
+const FLAT_SHIFT: f64 = 1e-6;
+const FLAT_STEPS: usize = 4;
 
 /// [S + shift, Aᵀ; A, −δI]
 pub(super) struct Kkt<'a> {
@@ -23,6 +26,8 @@ pub(super) struct Kkt<'a> {
     rows: Vec<(u32, u32, f64)>,
     /// Magnitudes of the rows of S.
     size: Vec<f64>,
+    /// What each row of A was divided by.
+    slopes: Vec<f64>,
     held: usize,
     matrix: Symmetric,
 }
@@ -56,12 +61,15 @@ impl<'a> Kkt<'a> {
         size: Vec<f64>,
     ) -> Result<Self, FactorizationError> {
         let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
-        let mut rows = Vec::new();
+        let (mut rows, mut slopes) = (Vec::new(), Vec::with_capacity(held.len()));
         for (k, &i) in held.iter().enumerate() {
+            let entry = |at: usize| (point.jacobian[at] * point.sizes[pattern.columns[at] as usize]).abs();
+            let slope = pattern.range(i).map(entry).fold(0.0, f64::max);
+            slopes.push(slope);
             for at in pattern.range(i) {
                 let j = pattern.columns[at] as usize;
                 if place[j] != u32::MAX {
-                    rows.push((k as u32, place[j], point.jacobian[at] * point.d[j] / point.slopes[i]));
+                    rows.push((k as u32, place[j], point.jacobian[at] * point.sizes[j] / slope));
                 }
             }
         }
@@ -70,7 +78,7 @@ impl<'a> Kkt<'a> {
         positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
         positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
         let matrix = Symmetric::new(free.len() + held.len(), &positions)?;
-        Ok(Kkt { point, free, hessian, rows, size, held: held.len(), matrix })
+        Ok(Kkt { point, free, hessian, rows, size, slopes, held: held.len(), matrix })
     }
 
     /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
@@ -118,23 +126,96 @@ impl<'a> Kkt<'a> {
         Ok((self.rayleigh(&v) < -0.5 * shift).then(|| self.in_user_variables(&v)))
     }
 
+    /// Whether a direction on the null space of A bends by less than `flat`, in units of σ.
+    pub(super) fn is_flat(&mut self, flat: f64) -> Result<bool, FactorizationError> {
+        Ok(self.factor_shifted(-flat)?.negative > self.held)
+    }
+
+    /// Directions on the null space of A along which S bends by less than `flat`, in units of σ: inverse iteration from `most`
+    /// different places. In the user's variables, the largest relative entry of each 1.
+    pub(super) fn flat_directions(&mut self, most: usize, flat: f64) -> Result<Vec<Vec<f64>>, FactorizationError> {
+        self.factor_shifted(FLAT_SHIFT)?;
+        let (p, mut found) = (self.free.len(), Vec::<Vec<f64>>::new());
+        for k in 0..most.min(p + 1) {
+            let unit = |at: usize| if at == (k - 1) * p / most.min(p) { 1.0 } else { 0.0 };
+            let mut v: Vec<f64> = (0..p).map(|at| if k == 0 { scattered(at) } else { unit(at) }).collect();
+            let mut size = 0.0;
+            for _ in 0..FLAT_STEPS {
+                v.extend(std::iter::repeat_n(0.0, self.held));
+                v = self.matrix.solve(&v)?;
+                v.truncate(p);
+                size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+                v.iter_mut().for_each(|v| *v /= size);
+            }
+            let is_new = |v: &[f64]| found.iter().all(|known| !is_parallel(known, v));
+            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * product(&v, &v) && is_new(&v) {
+                found.push(v);
+            }
+        }
+        Ok(found.iter().map(|v| self.in_user_variables(v)).collect())
+    }
+
+    fn factor_shifted(&mut self, shift: f64) -> Result<Inertia, FactorizationError> {
+        let diagonal = std::iter::repeat_n(shift, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
+        let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
+        self.matrix.factor(entries)
+    }
+
+    /// Factorises [S + |S| + I, Aᵀ; A, −δI]: steps with it go downhill and back to the rows, and never far.
+    pub(super) fn factor_proximal(&mut self) -> Result<(), FactorizationError> {
+        let diagonal = self.size.iter().map(|size| size + 1.0).chain(std::iter::repeat_n(-DUAL, self.held));
+        let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
+        self.matrix.factor(entries).map(|_| ())
+    }
+
+    /// Factorises [I Aᵀ; A −δI]: steps with it are the shortest back to the rows.
+    pub(super) fn factor_projection(&mut self) -> Result<(), FactorizationError> {
+        let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
+        let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
+        self.matrix.factor(entries).map(|_| ())
+    }
+
+    /// What row k of A was divided by.
+    pub(super) fn slope(&self, k: usize) -> f64 {
+        self.slopes[k]
+    }
+
+    /// Solves with the factors found last: over the free variables, in their scales, then the rows.
+    pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+        self.matrix.solve(right)
+    }
+
     /// vᵀSv over vᵀWv, W the magnitudes.
     fn rayleigh(&self, v: &[f64]) -> f64 {
+        let weight: f64 = v.iter().enumerate().map(|(k, v)| weight(self.size[k]) * v * v).sum();
+        self.bend(v) / weight
+    }
+
+    /// vᵀSv
+    fn bend(&self, v: &[f64]) -> f64 {
         let term = |&(row, column, value): &(u32, u32, f64)| {
             let product = value * v[row as usize] * v[column as usize];
             if row == column { product } else { 2.0 * product }
         };
-        let weight: f64 = v.iter().enumerate().map(|(k, v)| weight(self.size[k]) * v * v).sum();
-        self.hessian.iter().map(term).sum::<f64>() / weight
+        self.hessian.iter().map(term).sum::<f64>()
     }
 
     fn in_user_variables(&self, v: &[f64]) -> Vec<f64> {
         let mut direction = vec![0.0; self.point.meta().variables()];
         for (&j, v) in self.free.iter().zip(v) {
-            direction[j] = v * self.point.d[j];
+            direction[j] = v * self.point.sizes[j];
         }
         direction
     }
+}
+
+/// Whether two vectors span one line.
+fn is_parallel(a: &[f64], b: &[f64]) -> bool {
+    product(a, b).powi(2) > 0.999 * product(a, a) * product(b, b)
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The yardstick of a row of S.

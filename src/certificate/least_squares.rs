@@ -25,7 +25,13 @@ pub(super) struct Column {
 
 /// The minimiser y.
 pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
-    let mut pivoting = Pivoting::new(g, columns)?;
+    repeated(g, columns, Symmetric::one_of_many).or_else(|_| repeated(g, columns, Symmetric::new))
+}
+
+type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
+
+fn repeated(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
+    let mut pivoting = Pivoting::new(g, columns, build)?;
     let mut y = vec![0.0; columns.len()];
     for _ in 0..REPETITIONS {
         let next = pivoting.solve(&y)?;
@@ -47,13 +53,13 @@ struct Pivoting<'a> {
 }
 
 impl<'a> Pivoting<'a> {
-    fn new(g: &'a [f64], columns: &'a [Column]) -> Result<Self, FactorizationError> {
+    fn new(g: &'a [f64], columns: &'a [Column], build: Build) -> Result<Self, FactorizationError> {
         let p = g.len() as u32;
         let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
         for (k, column) in columns.iter().enumerate() {
             positions.extend(column.entries.iter().map(|&(row, _)| (p + k as u32, row)));
         }
-        let matrix = Symmetric::new(g.len() + columns.len(), &positions)?;
+        let matrix = build(g.len() + columns.len(), &positions)?;
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
         Ok(Pivoting { g, columns, matrix, basic })
     }

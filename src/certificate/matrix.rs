@@ -1,6 +1,7 @@
 //! Sparse symmetric matrices put together from entries.
 
 use crate::linear_algebra::blocks::BlockSolver;
+use crate::linear_algebra::bunch_kaufman::{self, Pivot};
 use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
 use crate::model::Pattern;
 
@@ -11,8 +12,12 @@ pub(super) struct Symmetric {
     solver: Solver,
 }
 
+/// Matrices of this order and less are dense where they are many.
+const SMALL: usize = 48;
+
 /// Many small blocks by themselves, anything else as a whole.
 enum Solver {
+    Dense { factors: Vec<f64>, pivots: Vec<Pivot> },
     Blocks(BlockSolver),
     Sparse(SymmetricSolver),
 }
@@ -32,6 +37,17 @@ impl Symmetric {
         Ok(Symmetric { places, values: vec![0.0; pattern.len()], solver })
     }
 
+    /// The same for one of very many small matrices: nothing is analysed, all of it is stored.
+    pub(super) fn one_of_many(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+        if order > SMALL {
+            return Symmetric::new(order, positions);
+        }
+        let place = |&(i, j): &(u32, u32)| i.max(j) as usize * order + i.min(j) as usize;
+        let places = positions.iter().map(place).collect();
+        let solver = Solver::Dense { factors: Vec::new(), pivots: vec![Pivot::default(); order] };
+        Ok(Symmetric { places, values: vec![0.0; order * order], solver })
+    }
+
     /// Factorises with these values, one per position given.
     pub(super) fn factor(&mut self, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
         self.values.fill(0.0);
@@ -39,6 +55,13 @@ impl Symmetric {
             self.values[place] += entry;
         }
         match &mut self.solver {
+            Solver::Dense { factors, pivots } => {
+                if !self.values.iter().all(|value| value.is_finite()) {
+                    return Err(FactorizationError::Library("a value is no number".into()));
+                }
+                factors.clone_from(&self.values);
+                Ok(bunch_kaufman::factor(factors, pivots))
+            }
             Solver::Blocks(solver) => solver.factor(&self.values),
             Solver::Sparse(solver) => solver.factor(&self.values),
         }
@@ -48,6 +71,12 @@ impl Symmetric {
     pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         let mut x = vec![0.0; right.len()];
         match &self.solver {
+            Solver::Dense { factors, pivots } => {
+                bunch_kaufman::solve_refined(&self.values, factors, pivots, right, &mut x, &mut Vec::new());
+                if !x.iter().all(|value| value.is_finite()) {
+                    return Err(FactorizationError::Singular);
+                }
+            }
             Solver::Blocks(solver) => solver.solve(right, &mut x),
             Solver::Sparse(solver) => solver.solve(right, &mut x)?,
         }

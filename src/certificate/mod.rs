@@ -4,20 +4,24 @@
 
 mod candidates;
 mod curvature;
+mod descent;
 mod implied_box;
 mod kkt;
 mod least_squares;
 mod lower_bound;
 mod matrix;
 mod multipliers;
+mod outward;
 mod point;
+mod reach;
 mod runaway;
 #[cfg(test)]
 mod tests;
+mod trial;
 mod types;
 mod words;
 
-use curvature::Active;
+use curvature::{Active, Curvature, Hessian};
 use multipliers::Multipliers;
 use point::{Origin, Point};
 
@@ -58,9 +62,13 @@ impl<'a> Certifier<'a> {
             && self.certify(x, None).is_ok_and(|certificate| certificate.certified)
     }
 
-    /// max violation_i/s_i over rows and bounds; `None` where the model has no value.
+    /// max violation_i/s_i over rows and bounds, or what is left of it in the start's measure where it only passes because
+    /// variables have run away; `None` where the model has no value.
     pub fn primal_infeasibility(&self, x: &[f64]) -> Option<f64> {
-        Point::new(&self.origin, x).ok().map(|point| worst_violation(&point).1)
+        let point = Point::new(&self.origin, x).ok()?;
+        let worst = worst_violation(&point).1;
+        let accepted = self.tolerances.constraint;
+        if worst > accepted { Some(worst) } else { Some(reach::out_of_reach(&point, accepted).unwrap_or(worst)) }
     }
 
     /// Judges `x`; see [`certify`].
@@ -81,26 +89,52 @@ impl<'a> Certifier<'a> {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
         certificate.scope = Scope::of(self.class);
-        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers: &multipliers };
-        if self.is_stationary(&certificate) {
-            let curvature = curvature::examine(&point, &active)?;
-            certificate.negative_curvature = curvature.escape.is_some();
-            certificate.escape = curvature.escape;
-            certificate.minimiser_may_not_be_unique = curvature.singular;
-            certificate.multipliers_not_unique = curvature.dependent;
-            if !certificate.negative_curvature {
-                certificate.runaway = runaway::variables(&point, self.tolerances.constraint);
-            }
-            certificate.certified = !certificate.negative_curvature && certificate.runaway.is_empty();
-        } else if certificate.is_feasible(&self.tolerances) {
-            certificate.multipliers_not_unique = curvature::is_dependent(&point, &active);
+        if certificate.is_feasible(&self.tolerances)
+            && let Some(worst) = reach::out_of_reach(&point, self.tolerances.constraint)
+        {
+            (certificate.primal_infeasibility, certificate.met_only_far_away) = (worst, true);
         }
+        self.second_order(&point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
         certificate.row_values = point.rows;
         certificate.variable_scales = point.d;
         Ok(certificate)
+    }
+
+    /// What first order leaves open: curvature, what lies beyond it, and variables that have run away.
+    fn second_order(
+        &self,
+        point: &Point<'_>,
+        multipliers: &Multipliers,
+        certificate: &mut Certificate,
+    ) -> Result<(), EvaluationError> {
+        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
+        if !self.is_stationary(certificate) {
+            if certificate.is_feasible(&self.tolerances) {
+                certificate.multipliers_not_unique = curvature::is_dependent(point, &active);
+            }
+            return Ok(());
+        }
+        let hessian = Hessian::of(point, multipliers)?;
+        let Curvature { escape, singular, dependent } = curvature::examine(point, &active, &hessian);
+        let bends_down = escape.is_some();
+        // Convex problems have no inflections.
+        let descent = match bends_down || self.class.is_global() {
+            true => None,
+            false => descent::find(point, &active, &hessian, &self.tolerances).unwrap_or_default(),
+        };
+        let falls_further = descent.is_some();
+        let runaway = match bends_down || falls_further {
+            true => Vec::new(),
+            false => runaway::variables(point, &active, &self.tolerances),
+        };
+        certificate.certified = !bends_down && !falls_further && runaway.is_empty();
+        certificate.escape = escape.or(descent);
+        (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
+        (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
+        Ok(())
     }
 
     fn is_stationary(&self, certificate: &Certificate) -> bool {
@@ -123,7 +157,7 @@ fn first_order(point: &Point<'_>, multipliers: &Multipliers, tolerances: &Tolera
         point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
     };
     let bound_side = |j: usize| {
-        let d = point.d[j];
+        let d = point.sizes[j];
         point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
     };
     Certificate {
@@ -165,7 +199,7 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
     }
     let rest = point.row_gradient(&multipliers.rows);
     let slope = |j: usize| {
-        let slope = ((rest[j] + multipliers.bounds[j]) * point.d[j] / point.sigma).abs();
+        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j] / point.sigma).abs();
         (slope - rounding.map_or(0.0, |rounding| rounding[j])).max(0.0)
     };
     (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
@@ -187,10 +221,7 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    // A variable that is zero but for rounding has no size of its own.
-    let largest = point.d.iter().fold(0.0, |most: f64, d| most.max(*d));
-    let size = |d: f64| if d < f64::EPSILON * largest { largest } else { d };
-    total.iter().zip(&point.d).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * size(d) / point.sigma))
+    total.iter().zip(&point.sizes).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * d / point.sigma))
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

@@ -65,7 +65,7 @@ impl<'a> System<'a> {
         let (variables, rows) = (partition.variables(group), partition.rows(group));
         let mut candidates: Vec<Candidate> = rows.iter().flat_map(|&k| candidates::row(point, near[k as usize])).collect();
         variables.iter().for_each(|&j| candidates.extend(candidates::bounds(point, j as usize)));
-        let gradient = variables.iter().map(|&j| point.gradient[j as usize] * point.d[j as usize] / point.sigma).collect();
+        let gradient = variables.iter().map(|&j| point.gradient[j as usize] * point.sizes[j as usize] / point.sigma).collect();
         let mut system = System { candidates, gradient, columns: Vec::new(), point };
         system.columns = system.candidates.iter().map(|candidate| system.column(candidate, partition, guess)).collect();
         system
@@ -88,7 +88,7 @@ impl<'a> System<'a> {
                 let pattern = &self.point.meta().jacobian;
                 let scaled = |at: usize| {
                     let j = pattern.columns[at] as usize;
-                    (partition.place(j as u32), self.point.jacobian[at] * self.point.d[j] / self.point.slopes[i])
+                    (partition.place(j as u32), self.point.jacobian[at] * self.point.sizes[j] / self.point.slopes[i])
                 };
                 let hinted = guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0);
                 (pattern.range(i).map(scaled).filter(|entry| entry.1 != 0.0).collect(), hinted)

@@ -3,11 +3,16 @@
 use crate::certificate::Side;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 
+/// Less than this share of the largest variable is rounding where the start is zero.
+const NEGLIGIBLE: f64 = 1e-8;
+
 /// A model with what does not depend on the point: its start's gradient.
 pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
     /// ∇f(start); `None` where the start has no gradient.
     gradient: Option<Vec<f64>>,
+    /// ‖D∇c_i(start)‖∞; `None` where the start has no Jacobian.
+    pub(super) slopes: Option<Vec<f64>>,
 }
 
 impl<'a> Origin<'a> {
@@ -16,7 +21,11 @@ impl<'a> Origin<'a> {
         let start = &model.meta().start;
         let mut gradient = vec![0.0; start.len()];
         let known = model.gradient(start, &mut gradient).is_ok();
-        Origin { gradient: known.then_some(gradient), model }
+        let mut jacobian = vec![0.0; model.meta().jacobian.len()];
+        let has_jacobian = model.jacobian(start, &mut jacobian).is_ok();
+        let sizes: Vec<f64> = start.iter().map(|start| if *start == 0.0 { 1.0 } else { start.abs() }).collect();
+        let slopes = has_jacobian.then(|| slopes(model.meta(), &jacobian, &sizes));
+        Origin { gradient: known.then_some(gradient), slopes, model }
     }
 
     pub(super) fn meta(&self) -> &Meta {
@@ -40,6 +49,8 @@ pub(super) struct Point<'a> {
     pub(super) jacobian: Vec<f64>,
     /// d_j
     pub(super) d: Vec<f64>,
+    /// d_j, but 1 for a variable that starts at zero and still is, but for rounding: what is left has no size of its own.
+    pub(super) sizes: Vec<f64>,
     /// max(‖D∇f(x)‖∞, ‖D∇f(start)‖∞)
     pub(super) sigma: f64,
     /// ‖D∇c_i(x)‖∞
@@ -57,16 +68,21 @@ impl<'a> Point<'a> {
         let mut jacobian = vec![0.0; meta.jacobian.len()];
         origin.model.jacobian(x, &mut jacobian)?;
         let d = origin.variable_scales(x);
+        let sizes = sizes(&d, &meta.start);
         let sigma = largest(&gradient, &d).max(origin.gradient.as_ref().map_or(0.0, |start| largest(start, &d)));
-        let slope = |i| {
-            let pattern = &meta.jacobian;
-            pattern.range(i).fold(0.0, |most: f64, at| most.max((jacobian[at] * d[pattern.columns[at] as usize]).abs()))
-        };
-        let slopes = (0..meta.rows()).map(slope).collect();
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sigma, slopes })
+        let slopes = slopes(meta, &jacobian, &d);
+        Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sizes, sigma, slopes })
     }
 
-    pub(super) fn meta(&self) -> &Meta {
+    /// The same with d_j = |x_j| wherever that is not 0: for what happens in proportion.
+    pub(super) fn in_own_sizes(&self) -> Point<'a> {
+        let d: Vec<f64> = self.x.iter().zip(&self.d).map(|(x, &d)| if *x == 0.0 { d } else { x.abs() }).collect();
+        let slopes = slopes(self.meta(), &self.jacobian, &d);
+        let (gradient, rows, jacobian) = (self.gradient.clone(), self.rows.clone(), self.jacobian.clone());
+        Point { sizes: d.clone(), d, slopes, gradient, rows, jacobian, ..*self }
+    }
+
+    pub(super) fn meta(&self) -> &'a Meta {
         self.origin.meta()
     }
 
@@ -136,8 +152,20 @@ fn relative_violation(value: f64, lower: f64, upper: f64, slope: f64) -> f64 {
     if violation > 0.0 { (violation / limit.abs().max(slope).max(f64::MIN_POSITIVE)).min(f64::MAX) } else { 0.0 }
 }
 
+fn sizes(d: &[f64], start: &[f64]) -> Vec<f64> {
+    let negligible = NEGLIGIBLE * d.iter().fold(0.0, |most: f64, d| most.max(*d));
+    d.iter().zip(start).map(|(&d, &start)| if start == 0.0 && d < negligible { 1.0 } else { d }).collect()
+}
+
 fn largest(gradient: &[f64], d: &[f64]) -> f64 {
     gradient.iter().zip(d).fold(0.0, |most, (g, d)| most.max((g * d).abs()))
+}
+
+/// ‖D∇c_i‖∞, row by row.
+fn slopes(meta: &Meta, jacobian: &[f64], d: &[f64]) -> Vec<f64> {
+    let pattern = &meta.jacobian;
+    let slope = |i| pattern.range(i).fold(0.0, |most: f64, at| most.max((jacobian[at] * d[pattern.columns[at] as usize]).abs()));
+    (0..meta.rows()).map(slope).collect()
 }
 
 fn check_point(origin: &Origin<'_>, x: &[f64]) -> Result<(), EvaluationError> {

@@ -76,7 +76,11 @@ pub struct Certificate {
     pub complementarity: f64,
     /// The Lagrangian bends down on the null space of the active rows and bounds, beyond rounding.
     pub negative_curvature: bool,
-    /// A direction along which it does, length n, in the problem's variables.
+    /// Flat to second order along a direction, the objective falls further along it: an inflection, no minimum.
+    pub falls_further: bool,
+    /// The rows are met only in the measure of variables that have grown large, and by no point beside this one.
+    pub met_only_far_away: bool,
+    /// A direction along which it bends down or falls further, length n, in the problem's variables.
     pub escape: Option<Vec<f64>>,
     /// y, length m: ≥ 0 where the upper side is active, ≤ 0 where the lower side is.
     pub row_multipliers: Vec<f64>,

@@ -12,7 +12,12 @@ pub(super) fn messages(
     tolerances: &Tolerances,
 ) -> Vec<String> {
     let mut all = Vec::new();
-    if !certificate.is_feasible(tolerances) {
+    if certificate.met_only_far_away {
+        all.push(format!(
+            "the rows are met only because variables are so large that the violation is lost beside them ({:.1e} of the start's scale, accepted {:.1e})",
+            certificate.primal_infeasibility, tolerances.constraint
+        ));
+    } else if !certificate.is_feasible(tolerances) {
         all.push(violation(point, tolerances));
     }
     if certificate.dual_infeasibility > tolerances.optimality {
@@ -26,6 +31,9 @@ pub(super) fn messages(
     }
     if certificate.negative_curvature {
         all.push("the point is stationary, but no minimum: along a direction the limits allow, the objective bends down".into());
+    }
+    if certificate.falls_further {
+        all.push("the point is stationary, but no minimum: flat to second order, the objective falls further along a direction the limits allow".into());
     }
     if !certificate.runaway.is_empty() {
         let names = list(certificate.runaway.iter().map(|&j| point.variable(j)));

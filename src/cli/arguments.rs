@@ -225,7 +225,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 fn seconds(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "a number of seconds is expected".to_string())?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("a positive number of seconds is expected".into()) }
+    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("a number of seconds, 0 or more, is expected".into()) }
 }
 
 #[cfg(test)]
@@ -247,10 +247,10 @@ mod tests {
     }
 
     #[test]
-    fn seconds_are_positive_and_finite() {
-        for bad in ["0", "-1", "nan", "inf", ""] {
+    fn seconds_are_finite_and_not_negative() {
+        for bad in ["-1", "-0.1", "nan", "inf", ""] {
             assert!(seconds(bad).is_err(), "{bad}");
         }
-        assert_eq!(seconds("0.5"), Ok(0.5));
+        assert_eq!((seconds("0.5"), seconds("0")), (Ok(0.5), Ok(0.0)));
     }
 }

@@ -2,14 +2,14 @@
 
 use super::arguments::Bounds;
 use super::failure::Failure;
-use super::{interrupt, output};
+use super::{interrupt, output, reading};
 use ribopt::report;
 use ribopt::run::bounds::bounds;
-use ribopt::run::{Subject, choice};
+use ribopt::run::choice;
 
 /// The bound-convergence test.
 pub fn run(arguments: &Bounds) -> Result<u8, Failure> {
-    let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    let mut subject = reading::read(&arguments.file, &arguments.changes.set, false)?;
     arguments.limits.apply(&mut subject.settings);
     output::tell(&subject.warnings);
     let choices = choice::choose(&[], None, &subject.settings)?;

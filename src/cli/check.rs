@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::arguments::Check;
 use super::failure::Failure;
-use super::output;
+use super::{output, reading};
 use ribopt::model::EvaluationError;
 use ribopt::model::derivative_check::DerivativeCheck;
 use ribopt::report::number::short;
@@ -16,7 +16,7 @@ use ribopt::run::{Subject, check::check};
 
 /// Reads, validates, compares derivatives; exit code 1 where one disagrees or there is no value.
 pub fn run(arguments: &Check) -> Result<u8, Failure> {
-    let subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    let subject = reading::read(&arguments.file, &arguments.changes.set, false)?;
     output::tell(&subject.warnings);
     let result = check(&subject);
     if arguments.json {

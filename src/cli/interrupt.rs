@@ -1,20 +1,27 @@
-//! Ctrl-C: once, the run stops with its best point; twice, the process ends.
+//! Ctrl-C: where a run watches for it, once, and the run stops with its best point; else, or twice, the process ends.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static WATCHED: AtomicBool = AtomicBool::new(false);
 
 /// The exit code of an interrupted run.
 const EXIT_INTERRUPTED: i32 = 5;
 
-/// Installs the handler and hands out the flag it sets.
-pub fn flag() -> &'static AtomicBool {
+/// Installs the handler, before anything else: from then on Ctrl-C ends every command with the exit code SPEC states.
+pub fn install() {
     let handler = || {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
+        let again = INTERRUPTED.swap(true, Ordering::SeqCst);
+        if again || !WATCHED.load(Ordering::SeqCst) {
             std::process::exit(EXIT_INTERRUPTED);
         }
     };
     // Without a handler Ctrl-C still ends the process; logs hold whole rows all the same.
     let _ = ctrlc::set_handler(handler);
+}
+
+/// The flag Ctrl-C sets, from now on watched by a run.
+pub fn flag() -> &'static AtomicBool {
+    WATCHED.store(true, Ordering::SeqCst);
     &INTERRUPTED
 }

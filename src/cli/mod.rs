@@ -9,6 +9,7 @@ mod interrupt;
 mod live_table;
 mod mesh;
 mod output;
+mod reading;
 mod reference;
 mod section;
 mod solve;
@@ -24,6 +25,7 @@ use ribopt::problem::Settings;
 
 /// Runs the command line and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    interrupt::install();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     // Known before the arguments are, for even a mistake in them is told as JSON.
     let json = arguments.iter().any(|argument| argument == "--json");

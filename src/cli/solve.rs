@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::arguments::Solve;
 use super::failure::Failure;
-use super::{interrupt, live_table, output};
+use super::{interrupt, live_table, output, reading};
 use ribopt::report::number::short;
 use ribopt::report::text::count;
 use ribopt::report::{result, summary};
@@ -15,7 +15,7 @@ use ribopt::run::{RunError, Subject, Watcher, choice};
 /// Solves, shows what was found and returns the exit code.
 pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     let (begun, interrupt) = (Instant::now(), interrupt::flag());
-    let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    let mut subject = reading::read(&arguments.file, &arguments.changes.set, arguments.quiet)?;
     arguments.limits.apply(&mut subject.settings);
     // The limit is on the whole command, reading included.
     let settings = &mut subject.settings;

@@ -2,14 +2,14 @@
 
 use super::arguments::Verify;
 use super::failure::Failure;
-use super::output;
+use super::{output, reading};
 use ribopt::crosscheck::Status;
 use ribopt::report::{Findings, result, summary};
-use ribopt::run::{Subject, verify::verify};
+use ribopt::run::verify::verify;
 
 /// Certifies a point and returns the exit code: 0 certified, 1 not.
 pub fn run(arguments: &Verify) -> Result<u8, Failure> {
-    let mut subject = Subject::read(&arguments.file, &arguments.changes.set)?;
+    let mut subject = reading::read(&arguments.file, &arguments.changes.set, false)?;
     arguments.limits.apply(&mut subject.settings);
     output::tell(&subject.warnings);
     let outcome = verify(&subject, &arguments.answer)?;

@@ -1,10 +1,12 @@
 //! Unbounded, or not attained? Decided by following rays with the model itself, never by a solver's word.
 
+mod paths;
+
 use super::Answer;
 use super::attempt::{Contestant, Referee};
 use crate::model::{Meta, Model, Rebounded};
 
-/// How the objective behaves along a feasible ray.
+/// How the objective behaves along a feasible way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fall {
     /// Every tenfold distance brings at least as much again: −∞.
@@ -13,10 +15,10 @@ pub(super) enum Fall {
     Settling,
 }
 
-/// A feasible ray along which the objective never stops falling.
+/// A feasible way along which the objective never stops falling.
 pub(super) struct Ray {
     pub(super) fall: Fall,
-    /// Length n, in the user's variables.
+    /// Length n, in the user's variables; of a bent way, where it leads in the end.
     pub(super) direction: Vec<f64>,
     /// Where it begins.
     pub(super) from: Vec<f64>,
@@ -26,6 +28,11 @@ pub(super) struct Ray {
 const DECADES: i32 = 9;
 /// Half widths of the artificial boxes, in units of the variables' own sizes.
 const BOXES: [f64; 2] = [1e3, 1e5];
+/// How many times its own size a variable has moved that runs off, and how many hide a violation in rounding.
+const AWAY: f64 = 100.0;
+const LOST: f64 = 1e4;
+/// Objectives this close, in units of σ, are the same.
+const AGREEMENT: f64 = 1e-6;
 /// Variables tried one by one at the most.
 const TRIED: usize = 200;
 /// Components of a direction below this, relative, are noise.
@@ -34,11 +41,14 @@ const NOISE: f64 = 1e-6;
 /// Looks for a ray from the feasible points among `answers`, and, where a variable is open, from minima inside artificial boxes.
 pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &[Answer]) -> Option<Ray> {
     let meta = referee.task.model.meta();
+    let answers = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| answer.solution.x.as_slice());
+    let points: Vec<&[f64]> = answers.chain([referee.task.start]).collect();
+    if let Some(ray) = points.iter().find_map(|x| paths::towards_edge(referee, x)) {
+        return Some(ray);
+    }
     if meta.lower.iter().chain(&meta.upper).all(|bound| bound.is_finite()) {
         return None;
     }
-    let answers = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| answer.solution.x.as_slice());
-    let points: Vec<&[f64]> = answers.chain([referee.task.start]).collect();
     let along_way = points.iter().find_map(|x| follow(referee, x, &difference(x, &meta.start)));
     let gradient = |x: &[f64]| {
         let mut gradient = vec![0.0; x.len()];
@@ -47,7 +57,40 @@ pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], ans
     along_way
         .or_else(|| points.iter().find_map(|x| follow(referee, x, &gradient(x)?)))
         .or_else(|| points.iter().find_map(|x| axes(meta).find_map(|axis| follow(referee, x, &axis))))
+        .or_else(|| points.iter().find_map(|x| paths::power_curve(referee, x)))
         .or_else(|| boxed(referee, contestants))
+}
+
+/// Whether what another backend found overrules certified points: it goes on falling below them, or, at the same value, certified
+/// points have gone as far in the variables that run off.
+pub(super) fn overruled(referee: &Referee<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
+    let certificate = best.certificate.as_ref()?;
+    let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
+    let start = &referee.task.model.meta().start;
+    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > AWAY * size(start[j]);
+    let overrules = |answer: &Answer| {
+        let (x, own) = (&answer.solution.x, answer.certificate.as_ref()?);
+        if !referee.is_feasible(answer) || own.certified || own.objective > certificate.objective + level {
+            return None;
+        }
+        let straight = || follow(referee, x, &difference(x, start)).or_else(|| paths::power_curve(referee, x));
+        if own.objective < certificate.objective - level {
+            return straight().or_else(|| paths::towards_edge(referee, x));
+        }
+        own.runaway.iter().any(is_far).then(straight).flatten()
+    };
+    answers.iter().find_map(overrules)
+}
+
+/// Whether a point lies so far out that rounding may hide what violates the rows there.
+pub(super) fn is_far_out(referee: &Referee<'_>, x: &[f64]) -> bool {
+    let start = &referee.task.model.meta().start;
+    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > LOST * size(start))
+}
+
+/// The size of a variable that starts here.
+fn size(start: f64) -> f64 {
+    if start == 0.0 { 1.0 } else { start.abs() }
 }
 
 /// ±e_j for the variables open on that side.
@@ -88,12 +131,10 @@ fn corner(referee: &Referee<'_>, contestant: Contestant<'_>, width: f64) -> Opti
 
 /// Follows `from + t·direction` over nine decades: feasible throughout and falling at every step, or no ray.
 fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray> {
-    let (meta, model) = (referee.task.model.meta(), referee.task.model);
-    let direction = cleaned(direction, from, meta)?;
+    let direction = cleaned(direction, from, referee.task.model.meta())?;
     let value = |t: f64| {
         let x: Vec<f64> = from.iter().zip(&direction).map(|(x, v)| x + t * v).collect();
-        let feasible = referee.judge.primal_infeasibility(&x)? <= referee.tolerances.constraint;
-        feasible.then(|| model.objective(&x).ok().filter(|f| f.is_finite())).flatten()
+        feasible_value(referee, &x)
     };
     let mut last = value(0.0)?;
     let mut falls = Vec::new();
@@ -103,6 +144,12 @@ fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray>
         last = next;
     }
     Some(Ray { fall: classify(&falls)?, direction, from: from.to_vec() })
+}
+
+/// f(x), where x meets every limit.
+fn feasible_value(referee: &Referee<'_>, x: &[f64]) -> Option<f64> {
+    let feasible = referee.judge.primal_infeasibility(x)? <= referee.tolerances.constraint;
+    feasible.then(|| referee.task.model.objective(x).ok().filter(|f| f.is_finite())).flatten()
 }
 
 /// Of at least six falls in a row, none of which is a rise: growing or level is endless, shrinking settles.

@@ -7,11 +7,13 @@
 mod attempt;
 mod clock;
 mod diverging;
+mod first;
 mod infeasible;
 mod multistart;
 mod restart;
 mod seeds;
 mod settle;
+mod start;
 #[cfg(test)]
 mod tests;
 mod types;
@@ -20,38 +22,41 @@ mod words;
 
 use crate::backends::{Backend, Termination};
 use attempt::{Contestant, Referee};
+use diverging::{Fall, Ray};
 use infeasible::Elasticity;
+pub use start::MovedStart;
 pub use types::{Agreement, Answer, Conflict, Minimum, ObserverFactory, Outcome, Status, Task};
 
 /// Runs every backend with its algorithm and judges what they bring.
 pub fn run(task: &Task<'_>, backends: &[(&dyn Backend, &str)], observers: &mut ObserverFactory<'_>) -> Outcome {
+    let moved_start = start::in_domain(task);
+    let begin = moved_start.as_ref().map_or(task.start, |moved| moved.x.as_slice());
+    let task = &Task { start: begin, ..*task };
     let referee = Referee::new(task);
     let contestants: Vec<_> = backends.iter().map(|&(backend, algorithm)| Contestant { backend, algorithm }).collect();
-    let mut answers = first_answers(&referee, &contestants, observers);
-    let mut minima = Vec::new();
+    let mut answers = first::answers(&referee, &contestants, observers);
+    let (mut minima, mut starts_run) = (Vec::new(), 1);
     if task.starts > 1 && !referee.clock.is_over() {
-        minima = many_starts(&referee, &contestants, &mut answers);
+        (minima, starts_run) = many_starts(&referee, &contestants, &mut answers);
     }
     second_tries(&referee, &contestants, &mut answers);
     let mut outcome = conclude(&referee, &contestants, answers);
-    outcome.minima = minima;
+    if starts_run < task.starts {
+        words::starts_left_out(&mut outcome, starts_run, task.starts);
+    }
+    if referee.clock.is_interrupted() && outcome.status == Status::Certified {
+        outcome.status = Status::Interrupted;
+        words::interrupted(&mut outcome);
+    }
+    (outcome.minima, outcome.moved_start) = (minima, moved_start.clone());
     outcome
 }
 
-fn first_answers(referee: &Referee<'_>, contestants: &[Contestant<'_>], observers: &mut ObserverFactory<'_>) -> Vec<Answer> {
-    let mut answers = Vec::new();
-    for (k, &contestant) in contestants.iter().enumerate() {
-        let mut observer = observers(k, contestant.algorithm);
-        // A tenth of what is left is kept for judging and second tries.
-        let budget = referee.clock.share(0.9 / (contestants.len() - k) as f64, f64::INFINITY);
-        answers.push(referee.attempt(contestant, referee.task.start, referee.task.start_multipliers, budget, &mut observer));
-    }
-    answers
-}
-
-/// The multi-start; its best point replaces the answer of the backend that found it, where it is better.
-fn many_starts(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) -> Vec<Minimum> {
+/// The multi-start; its best point replaces the answer of the backend that found it, where it is better. The distinct minima, and
+/// how many starts were run in all.
+fn many_starts(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) -> (Vec<Minimum>, usize) {
     let found = multistart::run(referee, contestants, referee.task.starts - 1);
+    let starts_run = found.len() + 1;
     let minima = multistart::minima(answers.iter().chain(found.iter().map(|(_, answer)| answer)));
     for (k, mut answer) in found {
         if answers.iter().all(|own| referee.is_better(&answer, own)) {
@@ -59,7 +64,7 @@ fn many_starts(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &
             answers[k] = answer;
         }
     }
-    minima
+    (minima, starts_run)
 }
 
 fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) {
@@ -89,24 +94,25 @@ fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: 
 
 fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
     let passes = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
-    if answers.iter().any(passes) {
-        return verdict::certified(referee, answers);
+    if let Some(best) = verdict::best(referee, &answers).map(|best| &answers[best]).filter(|best| passes(best)) {
+        return match diverging::overruled(referee, &answers, best) {
+            Some(ray) => verdict::diverging(referee, answers, ray),
+            None => verdict::certified(referee, answers),
+        };
     }
     answers.iter_mut().for_each(|answer| settle::settle(referee, answer));
     if referee.clock.is_over() {
         return verdict::undecided(referee, answers);
     }
     if answers.iter().any(|answer| referee.is_feasible(answer)) {
-        return match diverging::examine(referee, contestants, &answers) {
-            Some(ray) => verdict::diverging(referee, answers, ray),
-            None => verdict::undecided(referee, answers),
-        };
+        return from_feasible(referee, contestants, answers);
     }
     if answers.iter().all(|answer| answer.solution.termination == Termination::Refused) {
         return verdict::undecided(referee, answers);
     }
     let near = verdict::best(referee, &answers).filter(|&best| answers[best].certificate.is_some());
-    let near = near.map_or_else(|| referee.task.start.to_vec(), |best| answers[best].solution.x.clone());
+    let near = near.map(|best| answers[best].solution.x.clone()).filter(|x| !diverging::is_far_out(referee, x));
+    let near = near.unwrap_or_else(|| referee.task.start.to_vec());
     match infeasible::examine(referee, contestants, &near) {
         Some(Elasticity::Feasible(start)) => {
             for (answer, &contestant) in answers.iter_mut().zip(contestants) {
@@ -125,9 +131,34 @@ fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: 
     }
 }
 
-fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: Vec<Answer>) -> Outcome {
-    match diverging::examine(referee, contestants, &answers) {
+fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
+    let ray = diverging::examine(referee, contestants, &answers);
+    // So far out rows that contradict one another seem to be met.
+    if let Some(ray) = &ray
+        && diverging::is_far_out(referee, &ray.from)
+        && let Some(Elasticity::Infeasible { x, conflict }) = infeasible::examine(referee, contestants, referee.task.start)
+    {
+        return verdict::infeasible(referee, answers, x, conflict);
+    }
+    if let Some(value) = settling(referee, &answers, ray.as_ref())
+        && let Some((k, mut answer)) = multistart::attained(referee, contestants, value)
+    {
+        answer.remarks.push("found from another start, as from the one given the variables run off".into());
+        answers[k] = answer;
+        return verdict::certified(referee, answers);
+    }
+    match ray {
         Some(ray) => verdict::diverging(referee, answers, ray),
         None => verdict::undecided(referee, answers),
     }
+}
+
+/// The value the objective settles at as variables run off, where that is what was found; convex problems have no other minima.
+fn settling(referee: &Referee<'_>, answers: &[Answer], ray: Option<&Ray>) -> Option<f64> {
+    if referee.task.class.is_global() || ray.is_some_and(|ray| ray.fall == Fall::Endless) {
+        return None;
+    }
+    let runs_off = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|own| ray.is_some() || !own.runaway.is_empty());
+    let feasible = answers.iter().filter(|answer| referee.is_feasible(answer)).filter(runs_off);
+    feasible.filter_map(|answer| answer.objective).reduce(f64::min)
 }

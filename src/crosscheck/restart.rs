@@ -3,13 +3,15 @@
 use super::Answer;
 use super::attempt::{Contestant, Referee};
 use super::seeds::Seeds;
-use crate::backends::Termination;
+use crate::backends::{Iteration, Termination};
+use crate::model::Budget;
 
 const ESCAPES: usize = 5;
 
 /// Improves an answer that did not pass, while that helps.
 pub(super) fn improve(referee: &Referee<'_>, contestant: Contestant<'_>, answer: &mut Answer) {
     leave_saddles(referee, contestant, answer);
+    go_to_bounds(referee, answer);
     if is_worth_another_try(referee, answer) {
         let start = answer.solution.x.clone();
         retry(referee, contestant, answer, &start, "started again at its own best point");
@@ -31,7 +33,19 @@ pub(super) fn cross_start(referee: &Referee<'_>, contestant: Contestant<'_>, ans
 /// Starts a backend from a point another one holds.
 pub(super) fn retry(referee: &Referee<'_>, contestant: Contestant<'_>, answer: &mut Answer, start: &[f64], remark: &str) {
     let budget = referee.clock.share(0.5, f64::INFINITY);
-    let mut next = referee.attempt(contestant, start, None, budget, &mut |_| {});
+    again(referee, contestant, answer, (start, budget), &mut |_| {}, remark);
+}
+
+/// Starts a backend again from a point, with a budget; the better answer stays.
+pub(super) fn again(
+    referee: &Referee<'_>,
+    contestant: Contestant<'_>,
+    answer: &mut Answer,
+    (start, budget): (&[f64], Budget<'_>),
+    observer: &mut dyn FnMut(&Iteration<'_>),
+    remark: &str,
+) {
+    let mut next = referee.attempt(contestant, start, None, budget, observer);
     if referee.is_better(&next, answer) {
         add_effort(&mut next, answer);
         next.remarks = std::mem::take(&mut answer.remarks);
@@ -53,6 +67,25 @@ fn is_worth_another_try(referee: &Referee<'_>, answer: &Answer) -> bool {
     let runs_away = answer.certificate.as_ref().is_some_and(|certificate| !certificate.runaway.is_empty());
     let passes = answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
     ended && !passes && !runs_away && !referee.clock.is_over()
+}
+
+/// Where the objective falls towards bounds so far away that a backend gave up on the way: the point on these bounds, if it passes.
+fn go_to_bounds(referee: &Referee<'_>, answer: &mut Answer) {
+    let meta = referee.task.model.meta();
+    let mut gradient = vec![0.0; meta.variables()];
+    let is_open = answer.certificate.as_ref().is_some_and(|own| !own.certified && own.runaway.is_empty());
+    if !is_open || referee.task.model.gradient(&answer.solution.x, &mut gradient).is_err() {
+        return;
+    }
+    let falls_to = |j: usize| if gradient[j] > 0.0 { meta.lower[j] } else { meta.upper[j] };
+    let place = |(j, &x): (usize, &f64)| if gradient[j] != 0.0 && falls_to(j).is_finite() { falls_to(j) } else { x };
+    let x: Vec<f64> = answer.solution.x.iter().enumerate().map(place).collect();
+    if let Some(certificate) = referee.judge.certify(&x, None).ok().filter(|certificate| certificate.certified) {
+        answer.objective = Some(certificate.objective);
+        answer.certificate = Some(certificate);
+        (answer.solution.x, answer.solution.multipliers) = (x, None);
+        answer.remarks.push("moved on to the bounds towards which the objective falls".into());
+    }
 }
 
 /// From a stationary point that is no minimum, a step along the direction in which the objective bends down.

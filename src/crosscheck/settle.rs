@@ -9,8 +9,8 @@ const STEPS: usize = 400;
 /// Work in all, in entries of the Jacobian.
 const WORK: usize = 20_000_000;
 
-/// Projects a feasible answer's point onto its most violated row, again and again, until every row is met exactly (Kaczmarz'
-/// method, in the variables' own sizes). Keeps the point only where the violation became less.
+/// Projects a feasible answer's point onto its most violated row within the bounds, again and again, until every row is met exactly
+/// (Kaczmarz' method, in the variables' own sizes). Keeps the point only where the violation became less.
 pub(super) fn settle(referee: &Referee<'_>, answer: &mut Answer) {
     let Some(before) = answer.certificate.as_ref().filter(|certificate| referee.is_feasible(answer) && !certificate.certified)
     else {
@@ -46,12 +46,15 @@ fn projected(referee: &Referee<'_>, x: &[f64], scales: &[f64]) -> Option<Vec<f64
             break;
         }
         model.jacobian(&x, &mut jacobian).ok()?;
-        let entries = || meta.jacobian.range(worst).map(|at| (meta.jacobian.columns[at] as usize, jacobian[at]));
-        let length: f64 = entries().map(|(j, slope)| (slope * scales[j]).powi(2)).sum();
+        // A variable on a bound that would hold it does not take part.
+        let moves = |&(j, slope): &(usize, f64)| if lack * slope > 0.0 { x[j] < meta.upper[j] } else { x[j] > meta.lower[j] };
+        let entries = meta.jacobian.range(worst).map(|at| (meta.jacobian.columns[at] as usize, jacobian[at]));
+        let entries: Vec<(usize, f64)> = entries.filter(moves).collect();
+        let length: f64 = entries.iter().map(|&(j, slope)| (slope * scales[j]).powi(2)).sum();
         if !(length > 0.0 && length.is_finite()) {
             break;
         }
-        for (j, slope) in entries() {
+        for (j, slope) in entries {
             x[j] += lack * slope * scales[j] * scales[j] / length;
         }
     }

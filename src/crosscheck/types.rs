@@ -2,12 +2,14 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::start::MovedStart;
 use crate::backends::{Iteration, Solution};
 use crate::certificate::{Certificate, Scope};
 use crate::model::{Class, Model, Substitution};
 use crate::problem::Settings;
 
 /// What is to be solved.
+#[derive(Clone, Copy)]
 pub struct Task<'a> {
     /// The problem in the user's variables and units, minimised. Points are judged on it.
     pub model: &'a dyn Model,
@@ -17,7 +19,7 @@ pub struct Task<'a> {
     pub class: Class,
     /// Tolerances and limits.
     pub settings: &'a Settings,
-    /// Starting point, length n, inside the bounds.
+    /// Starting point, length n, inside the bounds; moved into the domain where a term has no value there.
     pub start: &'a [f64],
     /// Row multipliers of an earlier answer.
     pub start_multipliers: Option<&'a [f64]>,
@@ -149,6 +151,8 @@ pub struct Outcome {
     pub minima: Vec<Minimum>,
     /// Two backends hold certified points of equal value, apart from one another.
     pub minimiser_is_not_unique: bool,
+    /// Where the run began, if the start was outside the domain.
+    pub moved_start: Option<MovedStart>,
     /// A backend holds a feasible point better than the certified best answer.
     pub better_point_elsewhere: bool,
 }

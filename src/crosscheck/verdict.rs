@@ -94,7 +94,7 @@ pub(super) fn undecided(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome 
     };
     let mut outcome = standing(referee, answers, status);
     outcome.runaway = outcome.certificate.as_ref().map(|certificate| certificate.runaway.clone()).unwrap_or_default();
-    words::undecided(&mut outcome);
+    words::undecided(referee, &mut outcome);
     outcome
 }
 

@@ -39,6 +39,14 @@ pub(super) fn certified(outcome: &mut Outcome) {
     outcome.message = message;
 }
 
+pub(super) fn starts_left_out(outcome: &mut Outcome, run: usize, wanted: usize) {
+    outcome.message.push_str(&format!(" Only {run} of {wanted} starts were run before the end."));
+}
+
+pub(super) fn interrupted(outcome: &mut Outcome) {
+    outcome.message = format!("Interrupted; what was found before is certified. {}", outcome.message);
+}
+
 pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
     let names = variables(referee, &outcome.runaway);
     if outcome.status == Status::Unbounded {
@@ -73,7 +81,11 @@ pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict:
     let meta = model.meta();
     let move_limit = |&(i, amount): &(usize, f64)| {
         let (word, limit) = if amount > 0.0 { ("raise", meta.row_upper[i]) } else { ("lower", meta.row_lower[i]) };
-        format!("{word} the limit of row {} from {limit} to {}", model.row_name(i), twelve_digits(limit + amount))
+        format!(
+            "{word} the limit of row {} from {limit} to {}",
+            model.row_name(i),
+            twelve_digits(limit + amount, limit.abs().max(amount.abs()))
+        )
     };
     let moves: Vec<_> = conflict.relaxations.iter().map(move_limit).collect();
     outcome.remedy = (!moves.is_empty()).then(|| format!("the least that would make it feasible: {}", list(&moves)));
@@ -85,7 +97,7 @@ pub(super) fn no_feasible_point(outcome: &mut Outcome) {
     outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
 }
 
-pub(super) fn undecided(outcome: &mut Outcome) {
+pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
     let reasons: Vec<_> = outcome.answers.iter().map(|answer| format!("{}: {}", answer.backend, why(answer))).collect();
     let (lead, remedy) = match outcome.status {
         Status::Interrupted => ("Interrupted; this is the best point so far.", None),
@@ -100,6 +112,15 @@ pub(super) fn undecided(outcome: &mut Outcome) {
     };
     outcome.message = format!("{lead} {}.", reasons.join("; "));
     outcome.remedy = remedy.map(String::from);
+    let vanishing = referee.task.substitution.map_or_else(Vec::new, |other| other.vanishing(&outcome.x));
+    if outcome.status == Status::Uncertified && !vanishing.is_empty() {
+        let difference = |&(a, b): &(usize, usize)| variables(referee, &[a, b]).replace(", ", " − ");
+        let names = list(&vanishing.iter().map(difference).collect::<Vec<_>>());
+        outcome
+            .message
+            .push_str(&format!(" The best answer lets {names} vanish, where the objective has no slope to prove it by."));
+        outcome.remedy = Some(format!("keep {names} above a least value by a constraint"));
+    }
 }
 
 /// Why an answer is not certified.
@@ -112,16 +133,18 @@ fn why(answer: &Answer) -> String {
     all.join(" — ")
 }
 
-/// Without the last digits, which are rounding.
-fn twelve_digits(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
+/// Without the last digits, which are rounding, of a sum of numbers of this size.
+fn twelve_digits(value: f64, size: f64) -> f64 {
+    let lost = (size / value.abs()).log10().clamp(0.0, 11.0) as usize;
+    let rounded: f64 = format!("{value:.*e}", 11 - lost).parse().unwrap_or(value);
+    if rounded.abs() <= 1e-11 * size { 0.0 } else { rounded }
 }
 
 fn variables(referee: &Referee<'_>, places: &[usize]) -> String {
     list(&places.iter().map(|&j| referee.task.model.variable_name(j)).collect::<Vec<_>>())
 }
 
-fn list(names: &[String]) -> String {
+pub(super) fn list(names: &[String]) -> String {
     let mut shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {
         shown.push_str(&format!(" and {} more", names.len() - SHOWN));

@@ -26,8 +26,72 @@ pub trait Kernel: Send + Sync {
     /// ∇²f(x) along the pattern, overwritten.
     fn hessian(&self, x: &[f64], data: &[f64], workspace: &mut Workspace, hessian: &mut [f64]);
 
+    /// Adds the weighted gradients of many elements to `target`, which holds the derivatives by the variables `first ..
+    /// first + target.len()`; the others are left to whoever holds those. Returns the weighted values of the elements whose
+    /// first input is among them.
+    fn add_gradients(
+        &self,
+        elements: &Elements<'_>,
+        x: &[f64],
+        first: usize,
+        target: &mut [f64],
+        workspace: &mut Workspace,
+    ) -> f64 {
+        one_by_one(self, elements, x, first, target, workspace)
+    }
+
     /// Why there is no finite value (or derivative) here; `None` where there is.
     fn explain(&self, x: &[f64], data: &[f64]) -> Option<String>;
+}
+
+/// Elements that share a kernel, laid out one after another.
+#[derive(Debug, Clone, Copy)]
+pub struct Elements<'a> {
+    /// Variables, `inputs()` apiece.
+    pub inputs: &'a [u32],
+    /// Constants, `data()` apiece.
+    pub data: &'a [f64],
+    /// What each element is multiplied by.
+    pub weights: &'a [f64],
+}
+
+/// [`Kernel::add_gradients`], element by element.
+pub fn one_by_one<K: Kernel + ?Sized>(
+    kernel: &K,
+    elements: &Elements<'_>,
+    x: &[f64],
+    first: usize,
+    target: &mut [f64],
+    workspace: &mut Workspace,
+) -> f64 {
+    let (k, d) = (kernel.inputs(), kernel.data());
+    let (mut local, mut gradient, mut sum) = (vec![0.0; k], vec![0.0; k], 0.0);
+    for (at, &weight) in elements.weights.iter().enumerate() {
+        let inputs = &elements.inputs[at * k..(at + 1) * k];
+        for (slot, &input) in local.iter_mut().zip(inputs) {
+            *slot = x[input as usize];
+        }
+        let value = kernel.gradient(&local, &elements.data[at * d..(at + 1) * d], workspace, &mut gradient);
+        sum += weight * scatter(inputs, &gradient, weight, first, target, value);
+    }
+    sum
+}
+
+/// Adds one element's weighted gradient where it belongs to `target`; see [`Kernel::add_gradients`]. Returns `value` where the
+/// first input is there, 0 otherwise.
+#[inline]
+pub fn scatter(inputs: &[u32], gradient: &[f64], weight: f64, first: usize, target: &mut [f64], value: f64) -> f64 {
+    let mut own = 0.0;
+    for (at, (&input, slope)) in inputs.iter().zip(gradient).enumerate() {
+        // Variables before the first wrap round to places far beyond the end.
+        if let Some(sum) = target.get_mut((input as usize).wrapping_sub(first)) {
+            *sum += weight * slope;
+            if at == 0 {
+                own = value;
+            }
+        }
+    }
+    own
 }
 
 impl Kernel for Tape {

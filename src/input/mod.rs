@@ -30,6 +30,7 @@ pub use mistake::{Mistake, Mistakes, render};
 pub use points::points;
 pub use schema::schema;
 use source::{Place, Source};
+use table::Tables;
 
 /// What a problem file gives.
 #[derive(Debug, Clone)]
@@ -66,6 +67,25 @@ pub fn read(path: &Path) -> Result<Input, Mistakes> {
 /// # Errors
 /// Every mistake of the file, its tables and the overrides.
 pub fn read_with(path: &Path, overrides: &[String]) -> Result<Input, Mistakes> {
+    read_watched(path, overrides, &|_| {})
+}
+
+/// How far the reading of a table has come.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress<'a> {
+    /// The table.
+    pub table: &'a Path,
+    /// Bytes read.
+    pub read: u64,
+    /// Bytes in all.
+    pub size: u64,
+}
+
+/// [`read_with`], calling `watch` every now and then while tables are read.
+///
+/// # Errors
+/// Every mistake of the file, its tables and the overrides.
+pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Input, Mistakes> {
     let (source, bytes) = load::load(path)?;
     let mut checksum = Sha256::new();
     checksum.update(&bytes);
@@ -77,7 +97,8 @@ pub fn read_with(path: &Path, overrides: &[String]) -> Result<Input, Mistakes> {
         return Err(findings.into_parts(&source, overrides).0);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (mut problem, findings) = assemble::assemble(declared, &source, findings, overrides, folder, &mut checksum);
+    let mut tables = Tables { folder, checksum: &mut checksum, watch };
+    let (mut problem, findings) = assemble::assemble(declared, &source, findings, overrides, &mut tables);
     let clean = findings.clean();
     let (mistakes, warnings) = findings.into_parts(&source, overrides);
     if !clean {

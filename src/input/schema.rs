@@ -175,7 +175,7 @@ fn solver() -> Value {
             "constraint_tolerance": tolerance(defaults.constraint_tolerance, "Largest accepted violation, relative (TolCon)."),
             "max_iterations": count(defaults.max_iterations, "Iterations per backend."),
             "max_evaluations": count(defaults.max_evaluations, "Evaluations per backend."),
-            "max_seconds": { "type": "number", "exclusiveMinimum": 0, "default": defaults.max_seconds,
+            "max_seconds": { "type": "number", "minimum": 0, "default": defaults.max_seconds,
                 "description": "Seconds for the whole command." },
             "nlopt": algorithm(NLOPT_ALGORITHMS),
             "argmin": algorithm(ARGMIN_ALGORITHMS),

@@ -2,11 +2,12 @@
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use sha2::{Digest, Sha256};
 
+use super::Progress;
 use super::findings::Findings;
 use super::load::reason;
 use super::source::{Place, Written};
@@ -27,32 +28,47 @@ pub(super) struct Row<'r> {
     table: u8,
 }
 
-/// A reader that adds what it reads to a checksum.
+/// Where tables are, and who hears of what is read.
+pub(super) struct Tables<'a> {
+    /// The problem file's folder.
+    pub folder: &'a Path,
+    /// Of all that is read.
+    pub checksum: &'a mut Sha256,
+    pub watch: &'a dyn Fn(Progress<'_>),
+}
+
+/// A reader that adds what it reads to a checksum and tells how far it is.
 struct Summed<'a> {
     file: File,
+    path: PathBuf,
+    read: u64,
+    size: u64,
     checksum: &'a mut Sha256,
+    watch: &'a dyn Fn(Progress<'_>),
 }
 
 impl Read for Summed<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.file.read(buffer)?;
         self.checksum.update(&buffer[..count]);
+        self.read += count as u64;
+        (self.watch)(Progress { table: &self.path, read: self.read, size: self.size });
         Ok(count)
     }
 }
 
-impl<'a> Table<'a> {
+impl Tables<'_> {
     /// Opens the table `written` names, beside the problem file; `None` after a mistake.
-    pub fn open(written: &Written, folder: &Path, checksum: &'a mut Sha256, findings: &mut Findings) -> Option<Table<'a>> {
-        let path = folder.join(&written.text);
+    pub fn open(&mut self, written: &Written, findings: &mut Findings) -> Option<Table<'_>> {
+        let path = self.folder.join(&written.text);
         // A device may go on for ever.
         let opened = File::open(&path).and_then(|file| match file.metadata()? {
             metadata if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            metadata if metadata.is_file() => Ok(file),
+            metadata if metadata.is_file() => Ok((file, metadata.len())),
             _ => Err(io::Error::other("it is no regular file")),
         });
-        let file = match opened {
-            Ok(file) => file,
+        let (file, size) = match opened {
+            Ok(opened) => opened,
             Err(error) => {
                 let (cause, _) = reason(&error);
                 let message = format!("cannot read the table {}: {cause}", path.display());
@@ -62,16 +78,15 @@ impl<'a> Table<'a> {
         };
         let number = findings.tables.len() as u8;
         findings.tables.push((path.clone(), path.display().to_string()));
-        let reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .buffer_capacity(1 << 18)
-            .from_reader(Summed { file, checksum });
+        let summed = Summed { file, path, read: 0, size, checksum: self.checksum, watch: self.watch };
+        let reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).buffer_capacity(1 << 18).from_reader(summed);
         let mut table = Table { reader, record: StringRecord::new(), headers: Vec::new(), number };
         table.read_headers(findings)?;
         Some(table)
     }
+}
 
+impl Table<'_> {
     fn read_headers(&mut self, findings: &mut Findings) -> Option<()> {
         let place = self.place(1, Place::WHOLE_ROW);
         match self.reader.read_record(&mut self.record) {

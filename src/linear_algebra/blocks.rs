@@ -113,7 +113,7 @@ impl BlockSolver {
 
     /// x = A⁻¹·right for the matrix factorised last, refined once.
     pub fn solve(&self, right: &[f64], x: &mut [f64]) {
-        let (mut own, mut residual) = (Vec::new(), Vec::new());
+        let (mut wanted, mut own, mut residual) = (Vec::new(), Vec::new(), Vec::new());
         let mut entry = 0;
         for block in &self.blocks {
             let (n, unknowns) = (block.size, &self.order[block.first..block.first + block.size]);
@@ -121,22 +121,11 @@ impl BlockSolver {
             entry = entries.end;
             let (matrix, factors) = (&self.matrix[entries.clone()], &self.factors[entries]);
             let pivots = &self.pivots[block.first..block.first + n];
-            own.clear();
-            own.extend(unknowns.iter().map(|&k| right[k as usize]));
-            bunch_kaufman::solve(factors, pivots, &mut own);
-            residual.clear();
-            residual.extend(unknowns.iter().map(|&k| right[k as usize]));
-            for i in 0..n {
-                for j in 0..=i {
-                    residual[i] -= matrix[i * n + j] * own[j];
-                    if j < i {
-                        residual[j] -= matrix[i * n + j] * own[i];
-                    }
-                }
-            }
-            bunch_kaufman::solve(factors, pivots, &mut residual);
-            for ((&k, value), correction) in unknowns.iter().zip(&own).zip(&residual) {
-                x[k as usize] = value + correction;
+            wanted.clear();
+            wanted.extend(unknowns.iter().map(|&k| right[k as usize]));
+            bunch_kaufman::solve_refined(matrix, factors, pivots, &wanted, &mut own, &mut residual);
+            for (&k, &value) in unknowns.iter().zip(&own) {
+                x[k as usize] = value;
             }
         }
     }

@@ -56,6 +56,33 @@ pub fn factor(matrix: &mut [f64], pivots: &mut [Pivot]) -> Inertia {
     inertia
 }
 
+/// x = A⁻¹·right, refined once: `matrix` is the lower triangle of A, `factors` and `pivots` what [`factor`] made of it.
+pub fn solve_refined(
+    matrix: &[f64],
+    factors: &[f64],
+    pivots: &[Pivot],
+    right: &[f64],
+    x: &mut Vec<f64>,
+    residual: &mut Vec<f64>,
+) {
+    let n = pivots.len();
+    x.clear();
+    x.extend_from_slice(right);
+    solve(factors, pivots, x);
+    residual.clear();
+    residual.extend_from_slice(right);
+    for i in 0..n {
+        for j in 0..=i {
+            residual[i] -= matrix[i * n + j] * x[j];
+            if j < i {
+                residual[j] -= matrix[i * n + j] * x[i];
+            }
+        }
+    }
+    solve(factors, pivots, residual);
+    x.iter_mut().zip(residual).for_each(|(value, correction)| *value += *correction);
+}
+
 /// The row to bring forward, and whether a 2×2 block is needed.
 fn choose(matrix: &[f64], n: usize, k: usize) -> (usize, bool) {
     let own = matrix[k * n + k].abs();

@@ -6,6 +6,7 @@
 pub mod blocks;
 pub mod bunch_kaufman;
 pub mod cholesky;
+pub mod congruence;
 mod dense;
 mod symmetric;
 

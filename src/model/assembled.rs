@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::components::{Apart, Components, Members};
 use super::elements::{Group, Label};
+use super::stretches::Stretches;
 use super::{EvaluationError, Meta, Model};
 use crate::problem::Problem;
 
@@ -53,6 +54,8 @@ pub struct RibModel {
     pub(super) row_origin: Vec<RowOrigin>,
     /// The components, once somebody asked.
     pub(super) members: OnceLock<Option<Members>>,
+    /// How a large model is evaluated side by side, once somebody asked.
+    pub(super) stretches: OnceLock<Option<Stretches>>,
 }
 
 /// Where a row comes from.
@@ -79,6 +82,11 @@ impl RibModel {
     pub fn elements(&self) -> (usize, usize, usize) {
         let count = |groups: &[Group]| groups.iter().map(Group::len).sum();
         (count(&self.objective_groups), count(&self.row_groups), self.objective_groups.len() + self.row_groups.len())
+    }
+
+    fn stretches(&self) -> Option<&Stretches> {
+        let (n, m) = (self.meta.variables(), self.meta.rows());
+        self.stretches.get_or_init(|| Stretches::of(n, m, &self.objective_groups, &self.row_groups)).as_ref()
     }
 
     fn invalid(&self, groups: &[Group], x: &[f64], fallback: &str) -> EvaluationError {
@@ -120,8 +128,12 @@ impl Model for RibModel {
         for &(j, coefficient) in &self.objective.coefficients {
             gradient[j as usize] = coefficient;
         }
-        let value =
-            self.objective.value(x) + self.objective_groups.iter().map(|group| group.add_gradient(x, gradient)).sum::<f64>();
+        let groups = &self.objective_groups;
+        let sum = match self.stretches() {
+            Some(stretches) => stretches.add_gradient(groups, x, gradient),
+            None => groups.iter().map(|group| group.add_gradient(x, gradient)).sum(),
+        };
+        let value = self.objective.value(x) + sum;
         let finite = value.is_finite() && all_finite(gradient);
         if finite { Ok(value) } else { Err(self.invalid(&self.objective_groups, x, "gradient of the objective")) }
     }
@@ -131,24 +143,28 @@ impl Model for RibModel {
         for (value, constant) in values.iter_mut().zip(&self.row_constants) {
             *value += constant;
         }
-        for group in &self.row_groups {
-            group.add_rows(x, values);
+        match self.stretches() {
+            Some(stretches) => stretches.add_rows(&self.row_groups, x, values),
+            None => self.row_groups.iter().for_each(|group| group.add_rows(group.range(), x, 0, values)),
         }
         if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "rows")) }
     }
 
     fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         values.copy_from_slice(&self.linear_jacobian);
-        for group in &self.row_groups {
-            group.add_jacobian(x, values);
+        match self.stretches() {
+            Some(stretches) => stretches.add_jacobian(&self.row_groups, &self.meta.jacobian, x, values),
+            None => self.row_groups.iter().for_each(|group| group.add_jacobian(group.range(), x, 0, values)),
         }
         if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "first derivatives of the rows")) }
     }
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         values.fill(0.0);
-        for group in self.objective_groups.iter().chain(&self.row_groups) {
-            group.add_hessian(x, weight, y, values);
+        let groups: Vec<&Group> = self.objective_groups.iter().chain(&self.row_groups).collect();
+        match self.stretches() {
+            Some(stretches) => stretches.add_hessian(&groups, &self.meta.hessian, x, (weight, y), values),
+            None => groups.iter().for_each(|group| group.add_hessian(group.range(), x, weight, y, 0, values)),
         }
         if all_finite(values) {
             return Ok(());

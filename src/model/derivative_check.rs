@@ -1,9 +1,12 @@
 //! Exact derivatives against an independent method: Ridders' extrapolated central differences (Ridders 1982).
 
-use super::{EvaluationError, Model};
+use super::{Components, EvaluationError, Model};
 
 /// Variables looked at one by one; of a larger model an even selection of as many is.
 const MOST_VARIABLES: usize = 400;
+
+/// Components looked at, of a model that falls apart.
+const MOST_COMPONENTS: usize = 100;
 
 /// Relative disagreement that counts as a wrong derivative.
 const TOLERANCE: f64 = 1e-6;
@@ -50,6 +53,38 @@ impl DerivativeCheck {
 /// # Errors
 /// Where the model has no value at `x` itself.
 pub fn derivative_check(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
+    match model.components().filter(|_| x.len() > MOST_VARIABLES) {
+        Some(components) => check_components(components.as_ref(), x),
+        None => check_whole(model, x),
+    }
+}
+
+/// Of a large model that falls apart an even selection of components is looked at, each by itself: differences of the whole
+/// would cost as much as its size for every variable.
+fn check_components(components: &dyn Components, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
+    let partition = components.partition();
+    let mut check = DerivativeCheck { variables: (0, x.len()), ..DerivativeCheck::default() };
+    let step = (partition.len() / MOST_COMPONENTS).max(1);
+    for component in (0..partition.len()).step_by(step) {
+        if check.variables.0 >= MOST_VARIABLES {
+            break;
+        }
+        let own: Vec<f64> = partition.variables(component).iter().map(|&j| x[j as usize]).collect();
+        let found = check_whole(components.model(component).as_ref(), &own)?;
+        check.variables.0 += found.variables.0;
+        check.compared += found.compared;
+        check.disagreements += found.disagreements;
+        if let Some(worst) = found.worst {
+            let beats = |known: &Entry| worst.error.is_nan() || worst.error > known.error;
+            if check.worst.as_ref().is_none_or(beats) {
+                check.worst = Some(worst);
+            }
+        }
+    }
+    Ok(check)
+}
+
+fn check_whole(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
     let exact = Exact::at(model, x)?;
     let n = x.len();
     let step = n.div_ceil(MOST_VARIABLES).max(1);
@@ -151,6 +186,13 @@ fn compare(
     }
 }
 
+/// The largest step of 0.02·|x| and its quarters that has values on both sides, and these values.
+fn first_step(x: f64, shifted: &impl Fn(f64) -> Option<Vec<f64>>) -> Option<(f64, Vec<f64>, Vec<f64>)> {
+    let largest = 0.02 * x.abs().max(1e-2);
+    let steps = std::iter::successors(Some(largest), |step| Some(step / 4.0)).take(21);
+    steps.into_iter().find_map(|step| Some((step, shifted(-step)?, shifted(step)?)))
+}
+
 /// Derivatives of all components in variable j, their estimated errors, and the components' sizes.
 /// Steps shrink until the model has values on both sides; `None` where it never has.
 fn ridders(x: &[f64], j: usize, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
@@ -160,16 +202,7 @@ fn ridders(x: &[f64], j: usize, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Optio
         point[j] += by;
         f(&point)
     };
-    let mut step = 0.02 * x[j].abs().max(1e-2);
-    let (mut left, mut right) = (shifted(-step), shifted(step));
-    for _ in 0..20 {
-        if left.is_some() && right.is_some() {
-            break;
-        }
-        step /= 4.0;
-        (left, right) = (shifted(-step), shifted(step));
-    }
-    let (mut left, mut right) = (left?, right?);
+    let (mut step, mut left, mut right) = first_step(x[j], &shifted)?;
     let size: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l.abs().max(r.abs())).collect();
     let mut best = vec![f64::NAN; left.len()];
     let mut noise = vec![f64::INFINITY; left.len()];

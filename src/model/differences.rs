@@ -169,6 +169,12 @@ impl Substitution for Differences {
         }
         z
     }
+
+    fn vanishing(&self, x: &[f64]) -> Vec<(usize, usize)> {
+        let pair = |&h: &usize| Some((h, self.partner[h]? as usize));
+        let gone = |&(h, hw): &(usize, usize)| x[h] - x[hw] <= 2.0 * self.meta.lower[h];
+        self.replaced.iter().filter_map(pair).filter(gone).collect()
+    }
 }
 
 impl Model for Differences {

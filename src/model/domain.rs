@@ -9,6 +9,8 @@ const RADII: [f64; 9] = [1e-6, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0];
 const TRIES: usize = 96;
 /// Values computed in all, in numbers of variables: larger problems try fewer points.
 const WORK: usize = 20_000_000;
+/// Points tried anywhere between the bounds, where none of these has values.
+const SCANNED: usize = 4_000;
 /// Halvings of the way back towards the start.
 const HALVINGS: usize = 8;
 
@@ -31,7 +33,28 @@ pub fn valid_near(model: &dyn Model, start: &[f64]) -> Result<Vec<f64>, Evaluati
             return Ok(nearer(model, start, x));
         }
     }
-    Err(first)
+    let scanned = (0..SCANNED.min(WORK / (start.len() + 1))).map(|k| scattered(model, start, k, &mut random));
+    scanned.into_iter().find(|x| values(model, x).is_ok()).map(|x| nearer(model, start, x)).ok_or(first)
+}
+
+/// A point anywhere between the bounds; where they are open, up to a hundred sizes away. Every other one differs from the start in
+/// one variable alone.
+fn scattered(model: &dyn Model, start: &[f64], k: usize, random: &mut SplitMix) -> Vec<f64> {
+    let meta = model.meta();
+    let mut one = |j: usize| {
+        let reach = 100.0 * start[j].abs().max(1.0);
+        let end = |bound: f64, other: f64| if bound.is_finite() { bound } else { other };
+        let (lower, upper) = (end(meta.lower[j], start[j] - reach), end(meta.upper[j], start[j] + reach));
+        let share = random.uniform();
+        // Bounds may be so far apart that their difference overflows.
+        lower * (1.0 - share) + upper * share
+    };
+    if k.is_multiple_of(2) && !start.is_empty() {
+        let (j, mut x) = (k / 2 % start.len(), start.to_vec());
+        x[j] = one(j);
+        return x;
+    }
+    (0..start.len()).map(one).collect()
 }
 
 /// Objective, rows and their first derivatives.

@@ -1,9 +1,10 @@
 //! Sums of small elements: one kernel, many tuples of variables, scattered to where they belong.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::Pattern;
-use crate::expression::kernel::Kernel;
+use crate::expression::kernel::{Elements, Kernel};
 use crate::expression::tape::Workspace;
 
 /// What an element is called when it has no value.
@@ -92,6 +93,12 @@ impl Group {
         self.weights.len()
     }
 
+    /// Whether every element is a share of a rib's volume, counted positively.
+    pub fn is_volume(&self) -> bool {
+        let volume = |label: &Label| matches!(label, Label::RibVolume(_));
+        self.labels.iter().all(volume) && self.weights.iter().all(|&weight| weight > 0.0)
+    }
+
     /// A group of the same kernel, without elements.
     pub fn empty_like(&self) -> Group {
         Group::new(Arc::clone(&self.kernel))
@@ -124,10 +131,10 @@ impl Group {
         Scratch { x: vec![0.0; k], inner: Workspace::default(), out: vec![0.0; k.max(p)] }
     }
 
-    /// Calls `visit` for every element with its inputs gathered into `scratch.x`.
-    fn each(&self, x: &[f64], mut visit: impl FnMut(&Element, &mut Scratch)) {
+    /// Calls `visit` for every element of the range with its inputs gathered into `scratch.x`.
+    fn each(&self, range: Range<usize>, x: &[f64], mut visit: impl FnMut(&Element, &mut Scratch)) {
         let mut scratch = self.scratch();
-        for index in 0..self.len() {
+        for index in range {
             let element = self.element(index);
             for (slot, &input) in scratch.x.iter_mut().zip(element.inputs) {
                 *slot = x[input as usize];
@@ -136,17 +143,46 @@ impl Group {
         }
     }
 
+    /// All elements.
+    pub fn range(&self) -> Range<usize> {
+        0..self.len()
+    }
+
+    /// The row of an element: none, or one.
+    pub fn row(&self, index: usize) -> &[u32] {
+        self.rows.get(index..=index).unwrap_or_default()
+    }
+
     /// The weighted sum of all elements (objective groups).
     pub fn value(&self, x: &[f64]) -> f64 {
         let mut sum = 0.0;
-        self.each(x, |e, s| sum += e.weight * self.kernel.value(&s.x, e.data, &mut s.inner));
+        self.each(self.range(), x, |e, s| sum += e.weight * self.kernel.value(&s.x, e.data, &mut s.inner));
         sum
+    }
+
+    /// Adds the weighted gradients of a range of elements (objective groups) to the derivatives by the variables from `first`
+    /// on; returns the values of the elements whose first variable is among them.
+    pub fn add_gradients(
+        &self,
+        range: Range<usize>,
+        x: &[f64],
+        first: usize,
+        target: &mut [f64],
+        workspace: &mut Workspace,
+    ) -> f64 {
+        let (k, d) = (self.kernel.inputs(), self.kernel.data());
+        let elements = Elements {
+            inputs: &self.inputs[range.start * k..range.end * k],
+            data: &self.data[range.start * d..range.end * d],
+            weights: &self.weights[range],
+        };
+        self.kernel.add_gradients(&elements, x, first, target, workspace)
     }
 
     /// Adds the weighted gradients to a dense vector; returns the value (objective groups).
     pub fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) -> f64 {
         let (mut sum, k) = (0.0, self.kernel.inputs());
-        self.each(x, |e, s| {
+        self.each(self.range(), x, |e, s| {
             sum += e.weight * self.kernel.gradient(&s.x, e.data, &mut s.inner, &mut s.out[..k]);
             for (&input, derivative) in e.inputs.iter().zip(&s.out) {
                 gradient[input as usize] += e.weight * derivative;
@@ -155,35 +191,42 @@ impl Group {
         sum
     }
 
-    /// Adds each element to its row.
-    pub fn add_rows(&self, x: &[f64], values: &mut [f64]) {
-        self.each(x, |e, s| {
-            values[self.rows[e.index] as usize] += e.weight * self.kernel.value(&s.x, e.data, &mut s.inner);
-        });
-    }
-
-    /// Adds each element's gradient to the Jacobian's values.
-    pub fn add_jacobian(&self, x: &[f64], values: &mut [f64]) {
-        let k = self.kernel.inputs();
-        self.each(x, |e, s| {
-            self.kernel.gradient(&s.x, e.data, &mut s.inner, &mut s.out[..k]);
-            for (&slot, derivative) in self.jacobian_slots[e.index * k..].iter().zip(&s.out[..k]) {
-                values[slot as usize] += e.weight * derivative;
+    /// Adds each element of the range to its row; `target` holds the rows from `first` on.
+    pub fn add_rows(&self, range: Range<usize>, x: &[f64], first: usize, target: &mut [f64]) {
+        self.each(range, x, |e, s| {
+            if let Some(value) = target.get_mut((self.rows[e.index] as usize).wrapping_sub(first)) {
+                *value += e.weight * self.kernel.value(&s.x, e.data, &mut s.inner);
             }
         });
     }
 
-    /// Adds the second derivatives, each element times its row's multiplier (or the objective's weight), to the Hessian's values.
-    pub fn add_hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) {
+    /// Adds the gradient of each element of the range to the Jacobian; `target` holds its values from `first` on.
+    pub fn add_jacobian(&self, range: Range<usize>, x: &[f64], first: usize, target: &mut [f64]) {
+        let k = self.kernel.inputs();
+        self.each(range, x, |e, s| {
+            self.kernel.gradient(&s.x, e.data, &mut s.inner, &mut s.out[..k]);
+            for (&slot, derivative) in self.jacobian_slots[e.index * k..].iter().zip(&s.out[..k]) {
+                if let Some(value) = target.get_mut((slot as usize).wrapping_sub(first)) {
+                    *value += e.weight * derivative;
+                }
+            }
+        });
+    }
+
+    /// Adds the second derivatives of the range, each element times its row's multiplier (or the objective's weight), to the
+    /// Hessian; `target` holds its values from `first` on.
+    pub fn add_hessian(&self, range: Range<usize>, x: &[f64], weight: f64, y: &[f64], first: usize, target: &mut [f64]) {
         let p = self.kernel.hessian_pattern().len();
-        self.each(x, |e, s| {
+        self.each(range, x, |e, s| {
             let factor = e.weight * self.rows.get(e.index).map_or(weight, |&row| y[row as usize]);
             if factor == 0.0 {
                 return;
             }
             self.kernel.hessian(&s.x, e.data, &mut s.inner, &mut s.out[..p]);
             for (&slot, second) in self.hessian_slots[e.index * p..].iter().zip(&s.out[..p]) {
-                values[slot as usize] += factor * second;
+                if let Some(value) = target.get_mut((slot as usize).wrapping_sub(first)) {
+                    *value += factor * second;
+                }
             }
         });
     }

@@ -21,11 +21,12 @@ pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod scaled;
+mod stretches;
 pub mod substitution;
 
 use thiserror::Error;
 
-pub use assemble::{AssemblyError, Classification, assemble, classify};
+pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;

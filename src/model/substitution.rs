@@ -17,4 +17,10 @@ pub trait Substitution: Sync {
     fn outward_objective(&self, value: f64) -> f64 {
         value
     }
+
+    /// Pairs (a, b) of user variables whose difference a − b has all but vanished at x: only a bound of the substituted model's own
+    /// keeps it positive.
+    fn vanishing(&self, _x: &[f64]) -> Vec<(usize, usize)> {
+        Vec::new()
+    }
 }

@@ -68,14 +68,17 @@ pub(super) struct Reading<'a> {
     definitions: HashMap<u32, Option<Affine>>,
     /// Linked dimensions, by section and formula.
     links: HashMap<(u32, u32), Option<Affine>>,
+    /// Derived dimensions and properties by form and name, their terms counting the given dimensions. There are few.
+    properties: Vec<(u16, Box<str>, Option<Affine>)>,
 }
 
 impl<'a> Reading<'a> {
     pub fn of(problem: &'a Problem) -> Self {
-        Reading { problem, definitions: HashMap::new(), links: HashMap::new() }
+        Reading { problem, definitions: HashMap::new(), links: HashMap::new(), properties: Vec::new() }
     }
 
-    fn formula(&mut self, formula: &Formula, item: Item) -> Option<Affine> {
+    /// The formula in the scope of `item`; see [`Affine::of`].
+    pub fn formula(&mut self, formula: &Formula, item: Item) -> Option<Affine> {
         match formula {
             Formula::Variable(j) => Some(Affine { constant: 0.0, terms: vec![(*j, 1.0)] }),
             Formula::Definition(d) => self.definition(*d),
@@ -117,13 +120,26 @@ impl<'a> Reading<'a> {
         if let Some(dimension) = self.problem.given_dimension(s, name) {
             return self.dimension(s, dimension);
         }
-        let (problem, mut graph) = (self.problem, Graph::new());
-        let number = *problem.sections.form.get(s as usize)?;
-        let dimensions = problem.dimensions(s as usize);
-        let inputs: Vec<NodeId> = (0..dimensions.len() as u32).map(|at| graph.input(at)).collect();
-        let given = Given { form: sections::form(number), dimensions: &inputs, outline: &[] };
-        let node = sections::kind_of(number).property(&mut graph, &given, name)?;
+        let number = *self.problem.sections.form.get(s as usize)?;
+        let known = self.properties.iter().position(|(form, known, _)| *form == number && **known == *name);
+        let at = known.unwrap_or_else(|| {
+            self.properties.push((number, name.into(), of_form(number, name)));
+            self.properties.len() - 1
+        });
+        let Some(shape) = self.properties[at].2.clone() else { return self.with_numbers(s, number, name) };
+        let mut sum = Affine::constant(shape.constant);
+        for (slot, coefficient) in shape.terms {
+            let dimension = *self.problem.dimensions(s as usize).get(slot as usize)?;
+            sum = sum.plus(&self.dimension(s, dimension)?, coefficient);
+        }
+        Some(sum)
+    }
+
+    /// A property that is affine only because some dimensions are numbers.
+    fn with_numbers(&mut self, s: u32, number: u16, name: &str) -> Option<Affine> {
+        let dimensions = self.problem.dimensions(s as usize);
         let values: Vec<Affine> = dimensions.iter().map(|&dimension| self.dimension(s, dimension)).collect::<Option<_>>()?;
+        let (graph, node) = property_graph(number, name)?;
         of_node(&graph, node, &values)
     }
 
@@ -154,6 +170,22 @@ fn join(op: Binary, left: Affine, right: Affine) -> Option<Affine> {
         }
         _ => None,
     }
+}
+
+/// A property of a form, where it is affine in the given dimensions.
+fn of_form(number: u16, name: &str) -> Option<Affine> {
+    let (graph, node) = property_graph(number, name)?;
+    let count = sections::form(number).dimensions.len() as u32;
+    let slots: Vec<Affine> = (0..count).map(|slot| Affine { constant: 0.0, terms: vec![(slot, 1.0)] }).collect();
+    of_node(&graph, node, &slots)
+}
+
+/// A property as a graph of its form's dimensions.
+fn property_graph(number: u16, name: &str) -> Option<(Graph, NodeId)> {
+    let (form, mut graph) = (sections::form(number), Graph::new());
+    let inputs: Vec<NodeId> = (0..form.dimensions.len() as u32).map(|at| graph.input(at)).collect();
+    let node = sections::kind_of(number).property(&mut graph, &Given { form, dimensions: &inputs, outline: &[] }, name)?;
+    Some((graph, node))
 }
 
 /// The few nodes of a property, each affine in the inputs.

@@ -28,7 +28,7 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
             let Some(value) = reading.property(section, name) else { continue };
             let (least, most) = value.range(&problem.variables);
             let never = most <= 0.0;
-            if never || (least <= 0.0 && !rows.keep_positive(problem, section, &value)) {
+            if never || (least <= 0.0 && !rows.keep_positive(problem, section, &value, &mut reading)) {
                 found.push(Doubt { section, name, never });
             }
         }
@@ -75,14 +75,14 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    fn keep_positive(&self, problem: &Problem, section: u32, value: &Affine) -> bool {
+    fn keep_positive(&self, problem: &Problem, section: u32, value: &Affine, reading: &mut Reading<'_>) -> bool {
         let singles = value.terms.iter().filter_map(|(j, _)| self.single.get(j)).flatten();
         let mut own = self.repeated.iter().filter(|(_, members)| members.binary_search(&section).is_ok());
         singles.into_iter().any(|(row, lower, upper)| keeps_positive(problem, value, row, *lower, *upper))
             || own.any(|(constraint, _)| {
                 let item = Item::Section(section);
                 let (lower, upper) = limits(problem, &constraint.right, item);
-                Affine::of(problem, &constraint.left, item).is_some_and(|row| keeps_positive(problem, value, &row, lower, upper))
+                reading.formula(&constraint.left, item).is_some_and(|row| keeps_positive(problem, value, &row, lower, upper))
             })
     }
 }

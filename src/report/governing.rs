@@ -1,9 +1,15 @@
 //! What governs: the active limits by what they cost.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 use super::{Findings, Held};
 use crate::certificate::Side;
+
+/// Limits counted by one thread at a time.
+const BLOCK: usize = 1 << 14;
 
 /// An active limit of a row or a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,15 +58,84 @@ pub fn per_cent(sensitivity: f64, limit: f64) -> f64 {
 impl Governing {
     /// The active limits, at most `most` of them one by one.
     pub fn of(findings: &Findings<'_>, most: usize) -> Governing {
-        let mut active = active(findings);
-        let all = active.len();
-        active.retain(|entry| entry.held.multiplier != 0.0);
-        let (with_cost, without_cost) = (active.len(), all - active.len());
+        let rows = 0..findings.model.meta().rows() + findings.model.meta().variables();
+        let starts: Vec<usize> = rows.clone().step_by(BLOCK).collect();
+        // Block by block, so that the sums do not depend on the number of threads.
+        let blocks: Vec<Tally> =
+            starts.par_iter().map(|&first| Tally::of(findings, first..rows.end.min(first + BLOCK), most)).collect();
+        let tally = blocks.into_iter().reduce(|all, next| all.with(next, most)).unwrap_or_default();
+        let groups = if tally.with_cost > most { tally.groups() } else { Vec::new() };
+        let costliest = tally.costliest.iter().map(|entry| entry.limit(findings)).collect();
+        Governing { costliest, with_cost: tally.with_cost, without_cost: tally.without_cost, groups }
+    }
+}
+
+/// What is counted over some of the limits.
+#[derive(Default)]
+struct Tally {
+    costliest: Vec<Entry>,
+    with_cost: usize,
+    without_cost: usize,
+    groups: BTreeMap<(String, &'static str), Group>,
+}
+
+impl Tally {
+    /// Over the limits of this range: rows first, then variables.
+    fn of(findings: &Findings<'_>, range: Range<usize>, most: usize) -> Tally {
+        let mut tally = Tally::default();
+        for entry in range.filter_map(|at| active(findings, at)) {
+            if entry.held.multiplier == 0.0 {
+                tally.without_cost += 1;
+                continue;
+            }
+            tally.with_cost += 1;
+            tally.join(
+                group_name(&entry.name(findings), entry.is_row),
+                entry.held.side,
+                1,
+                per_cent(entry.held.sensitivity, entry.limit),
+            );
+            tally.costliest.push(entry);
+            if tally.costliest.len() > 2 * most {
+                tally.cut(most);
+            }
+        }
+        tally.cut(most);
+        tally
+    }
+
+    fn join(&mut self, name: String, side: Side, count: usize, per_cent: f64) {
+        let key = (name, side.as_str());
+        let group =
+            self.groups.entry(key).or_insert_with_key(|(name, _)| Group { name: name.clone(), side, count: 0, per_cent: 0.0 });
+        group.count += count;
+        group.per_cent += per_cent;
+    }
+
+    /// Keeps the costliest; those held against 0 come last.
+    fn cut(&mut self, most: usize) {
         // In single precision: costs that differ by rounding only keep the order of the file.
-        active.sort_by(|a, b| (a.limit == 0.0).cmp(&(b.limit == 0.0)).then((b.cost() as f32).total_cmp(&(a.cost() as f32))));
-        let groups = if with_cost > most { groups(findings, &active) } else { Vec::new() };
-        let costliest = active.iter().take(most).map(|entry| entry.limit(findings)).collect();
-        Governing { costliest, with_cost, without_cost, groups }
+        self.costliest
+            .sort_by(|a, b| (a.limit == 0.0).cmp(&(b.limit == 0.0)).then((b.cost() as f32).total_cmp(&(a.cost() as f32))));
+        self.costliest.truncate(most);
+    }
+
+    fn with(mut self, next: Tally, most: usize) -> Tally {
+        self.with_cost += next.with_cost;
+        self.without_cost += next.without_cost;
+        for ((name, _), group) in next.groups {
+            self.join(name, group.side, group.count, group.per_cent);
+        }
+        self.costliest.extend(next.costliest);
+        self.cut(most);
+        self
+    }
+
+    /// The groups, those of the greatest effect first.
+    fn groups(&self) -> Vec<Group> {
+        let mut groups: Vec<Group> = self.groups.values().cloned().collect();
+        groups.sort_by(|a, b| b.per_cent.abs().total_cmp(&a.per_cent.abs()));
+        groups
     }
 }
 
@@ -87,33 +162,22 @@ impl Entry {
     }
 }
 
-fn active(findings: &Findings<'_>) -> Vec<Entry> {
+/// Limit `at`, rows first, where it is active.
+fn active(findings: &Findings<'_>, at: usize) -> Option<Entry> {
     let meta = findings.model.meta();
-    let rows = (0..meta.rows()).map(|i| (true, i, findings.row(i), meta.row_lower[i], meta.row_upper[i]));
-    let bounds = (0..meta.variables()).map(|j| (false, j, findings.bound(j), meta.lower[j], meta.upper[j]));
-    let entries = rows.chain(bounds).filter_map(|(is_row, index, held, lower, upper)| {
-        let limit = match held.side {
-            Side::None => return None,
-            Side::Lower => lower,
-            Side::Upper | Side::Equal => upper,
-        };
-        Some(Entry { is_row, index, limit, held })
-    });
-    entries.collect()
-}
-
-fn groups(findings: &Findings<'_>, active: &[Entry]) -> Vec<Group> {
-    let mut groups: BTreeMap<(String, &'static str), Group> = BTreeMap::new();
-    for entry in active {
-        let name = group_name(&entry.name(findings), entry.is_row);
-        let side = entry.held.side;
-        let group = groups.entry((name.clone(), side.as_str())).or_insert(Group { name, side, count: 0, per_cent: 0.0 });
-        group.count += 1;
-        group.per_cent += per_cent(entry.held.sensitivity, entry.limit);
-    }
-    let mut groups: Vec<Group> = groups.into_values().collect();
-    groups.sort_by(|a, b| b.per_cent.abs().total_cmp(&a.per_cent.abs()));
-    groups
+    let is_row = at < meta.rows();
+    let (index, held, lower, upper) = if is_row {
+        (at, findings.row(at), meta.row_lower[at], meta.row_upper[at])
+    } else {
+        let j = at - meta.rows();
+        (j, findings.bound(j), meta.lower[j], meta.upper[j])
+    };
+    let limit = match held.side {
+        Side::None => return None,
+        Side::Lower => lower,
+        Side::Upper | Side::Equal => upper,
+    };
+    Some(Entry { is_row, index, limit, held })
 }
 
 /// `stress[rib 7]` → `stress[*]`, `support.b` → `*.b`, `x[3]` → `x[*]`.

@@ -3,6 +3,7 @@
 //! Reports judge nothing. They turn what the certificate and the cross-check found into the user's sense and words.
 
 pub mod answer;
+mod blocks;
 pub mod bounds;
 pub mod comparison;
 pub mod cross_section;

@@ -1,10 +1,12 @@
 //! Numbers as text: exact ones for files, short ones for people.
 
-pub use crate::log::exact;
+pub use crate::log::{exact, push_exact};
 
-/// As [`exact`], with open bounds left empty.
-pub fn exact_or_open(value: f64) -> String {
-    if value.is_finite() { exact(value) } else { String::new() }
+/// As [`push_exact`], with open bounds left empty.
+pub fn push_exact_or_open(text: &mut String, value: f64) {
+    if value.is_finite() {
+        push_exact(text, value);
+    }
 }
 
 /// About six significant digits, as people read them: `0.0412`, `1.25e-7`, `-`, `inf`.

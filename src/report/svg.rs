@@ -6,10 +6,10 @@ use super::number::significant;
 use super::pictures::canvas::{COLOURS, Canvas};
 use super::profile::{Curve, Profile};
 
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 460.0;
 const LEFT: f64 = 60.0;
-const RIGHT: f64 = 210.0;
+const RIGHT: f64 = 290.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = 50.0;
 const DASHES: [&str; 3] = ["", "6 3", "2 3"];
@@ -39,6 +39,15 @@ impl Plot {
         HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * share
     }
 
+    /// What a decade is divided at: the wider the range, the fewer labels have room.
+    fn ticks(&self) -> &'static [f64] {
+        match self.decades {
+            decades if decades < 2.5 => &[1.0, 2.0, 5.0],
+            decades if decades < 4.0 => &[1.0, 3.0],
+            _ => &[1.0],
+        }
+    }
+
     fn axes(&self, canvas: &mut Canvas) {
         let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for step in 0..=5 {
@@ -48,7 +57,7 @@ impl Plot {
         }
         let mut factor: f64 = 1.0;
         while factor.log10() <= self.decades {
-            for multiple in [1.0, 2.0, 5.0] {
+            for &multiple in self.ticks() {
                 if (factor * multiple).log10() <= self.decades {
                     let x = self.x(factor * multiple);
                     canvas.line([x, TOP, x, bottom], "#dddddd");

@@ -1,52 +1,92 @@
 //! `variables.csv` and `constraints.csv`. Open bounds and unknown numbers are empty cells.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
-use super::number::{exact, exact_or_open};
-use super::{Findings, Held};
+use super::number::{push_exact, push_exact_or_open};
+use super::{Findings, Held, blocks};
 
 /// Writes `name,lower,start,upper,<backend>…,active,multiplier,sensitivity`, one row per variable.
 ///
 /// # Errors
 /// Whatever the writer says.
-pub fn variables(findings: &Findings<'_>, out: impl Write) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
+pub fn variables(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let answers = &findings.outcome.answers;
     let backends = answers.iter().map(|answer| answer.backend);
     let columns = ["name", "lower", "start", "upper"].into_iter().chain(backends).chain(["active", "multiplier", "sensitivity"]);
-    table.write_record(columns)?;
+    header(out, columns)?;
     let meta = findings.model.meta();
-    for j in 0..meta.variables() {
-        table.write_field(findings.model.variable_name(j))?;
+    let row = |j: usize, rows: &mut Rows| {
+        rows.text(&findings.model.variable_name(j))?;
         for value in [meta.lower[j], meta.start[j], meta.upper[j]] {
-            table.write_field(exact_or_open(value))?;
+            rows.number_or_open(value)?;
         }
         for answer in answers {
-            table.write_field(exact(answer.solution.x.get(j).copied().unwrap_or(f64::NAN)))?;
+            rows.number(answer.solution.x.get(j).copied().unwrap_or(f64::NAN))?;
         }
-        write_held(&mut table, findings.bound(j))?;
-    }
-    table.flush()
+        rows.end(findings.bound(j))
+    };
+    blocks::write(out, meta.variables(), |range| Rows::of(range, row))
 }
 
 /// Writes `name,value,lower,upper,active,multiplier,sensitivity`, one row per constraint row.
 ///
 /// # Errors
 /// Whatever the writer says.
-pub fn constraints(findings: &Findings<'_>, out: impl Write) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    table.write_record(["name", "value", "lower", "upper", "active", "multiplier", "sensitivity"])?;
+pub fn constraints(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
+    header(out, ["name", "value", "lower", "upper", "active", "multiplier", "sensitivity"].into_iter())?;
     let meta = findings.model.meta();
-    for i in 0..meta.rows() {
-        table.write_field(findings.model.row_name(i))?;
-        table.write_field(exact(findings.row_value(i)))?;
-        table.write_field(exact_or_open(meta.row_lower[i]))?;
-        table.write_field(exact_or_open(meta.row_upper[i]))?;
-        write_held(&mut table, findings.row(i))?;
-    }
+    let row = |i: usize, rows: &mut Rows| {
+        rows.text(&findings.model.row_name(i))?;
+        rows.number(findings.row_value(i))?;
+        rows.number_or_open(meta.row_lower[i])?;
+        rows.number_or_open(meta.row_upper[i])?;
+        rows.end(findings.row(i))
+    };
+    blocks::write(out, meta.rows(), |range| Rows::of(range, row))
+}
+
+fn header<'a>(out: &mut dyn Write, columns: impl Iterator<Item = &'a str>) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(columns)?;
     table.flush()
 }
 
-fn write_held(table: &mut csv::Writer<impl Write>, held: Held) -> io::Result<()> {
-    Ok(table.write_record([held.side.as_str(), &exact(held.multiplier), &exact(held.sensitivity)])?)
+/// Some rows as text.
+struct Rows {
+    table: csv::Writer<Vec<u8>>,
+    cell: String,
+}
+
+impl Rows {
+    fn of(range: Range<usize>, row: impl Fn(usize, &mut Rows) -> csv::Result<()>) -> io::Result<Vec<u8>> {
+        let mut rows = Rows { table: csv::Writer::from_writer(Vec::new()), cell: String::new() };
+        for at in range {
+            row(at, &mut rows)?;
+        }
+        rows.table.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    }
+
+    fn text(&mut self, text: &str) -> csv::Result<()> {
+        self.table.write_field(text)
+    }
+
+    fn number(&mut self, value: f64) -> csv::Result<()> {
+        self.cell.clear();
+        push_exact(&mut self.cell, value);
+        self.table.write_field(&self.cell)
+    }
+
+    fn number_or_open(&mut self, value: f64) -> csv::Result<()> {
+        self.cell.clear();
+        push_exact_or_open(&mut self.cell, value);
+        self.table.write_field(&self.cell)
+    }
+
+    fn end(&mut self, held: Held) -> csv::Result<()> {
+        self.text(held.side.as_str())?;
+        self.number(held.multiplier)?;
+        self.number(held.sensitivity)?;
+        self.table.write_record(None::<&[u8]>)
+    }
 }

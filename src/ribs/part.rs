@@ -1,7 +1,8 @@
 //! Volume per unit length of a part whose area is a product: width w times height h, or times a difference H − c·h.
 
+use super::frusta;
 use super::law::Law;
-use crate::expression::kernel::Kernel;
+use crate::expression::kernel::{Elements, Kernel, one_by_one};
 use crate::expression::tape::Workspace;
 
 /// The kernel of one part between two ends.
@@ -71,8 +72,9 @@ impl Part {
         [1.0, 1.0, c, 1.0, 1.0, c]
     }
 
-    fn volume(&self, [w1, h1, w2, h2]: [f64; 4]) -> f64 {
-        match self.law {
+    /// Volume per unit length by a law, from widths and heights (w1, h1, w2, h2).
+    pub fn volume_per_length(law: Law, [w1, h1, w2, h2]: [f64; 4]) -> f64 {
+        match law {
             Law::Frustum => {
                 let (s1, s2) = (w1 * h1, w2 * h2);
                 (s1 + s2 + s1.sqrt() * s2.sqrt()) / 3.0
@@ -91,7 +93,7 @@ impl Part {
             }
             Law::Prismatoid => {
                 let gradient = [2.0 * h1 + h2, 2.0 * w1 + w2, 2.0 * h2 + h1, 2.0 * w2 + w1].map(|sum| sum / 6.0);
-                (self.volume([w1, h1, w2, h2]), gradient)
+                (Part::volume_per_length(self.law, [w1, h1, w2, h2]), gradient)
             }
         }
     }
@@ -99,8 +101,9 @@ impl Part {
     /// The full 4×4 Hessian's lower triangle, in the order of [`FOUR`].
     fn frustum_hessian(x: [f64; 4]) -> [f64; 10] {
         let g = (x[0] * x[1]).sqrt() * (x[2] * x[3]).sqrt() / 12.0;
+        let inverse = x.map(|x| 1.0 / x);
         let mut hessian = FOUR.map(|(i, j)| {
-            let scaled = g / x[i as usize] / x[j as usize];
+            let scaled = g * inverse[i as usize] * inverse[j as usize];
             if i == j { -scaled } else { scaled }
         });
         // The two dimensions of one end also meet in their own area.
@@ -135,7 +138,7 @@ impl Kernel for Part {
     }
 
     fn value(&self, x: &[f64], data: &[f64], _: &mut Workspace) -> f64 {
-        self.volume(self.lengths(x, data))
+        Part::volume_per_length(self.law, self.lengths(x, data))
     }
 
     fn gradient(&self, x: &[f64], data: &[f64], _: &mut Workspace, gradient: &mut [f64]) -> f64 {
@@ -149,6 +152,20 @@ impl Kernel for Part {
             gradient.copy_from_slice(&by_length);
         }
         value
+    }
+
+    fn add_gradients(
+        &self,
+        elements: &Elements<'_>,
+        x: &[f64],
+        first: usize,
+        target: &mut [f64],
+        workspace: &mut Workspace,
+    ) -> f64 {
+        if self.law == Law::Frustum && !self.difference {
+            return frusta::add_gradients(elements, x, first, target);
+        }
+        one_by_one(self, elements, x, first, target, workspace)
     }
 
     fn hessian(&self, x: &[f64], data: &[f64], _: &mut Workspace, hessian: &mut [f64]) {

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use super::Subject;
 use super::choice::{self, Choice};
-use super::start::in_domain;
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Task};
 use crate::problem::Settings;
@@ -56,7 +55,7 @@ fn run(subject: &Subject, choice: &Choice, max_seconds: f64, interrupt: Option<&
         substitution: subject.substitution(),
         class: subject.class,
         settings: &settings,
-        start: &in_domain(subject.model(), subject.model().meta().start.clone()).0,
+        start: &subject.model().meta().start,
         start_multipliers: None,
         starts: 1,
         interrupt,

@@ -10,7 +10,6 @@ mod pictures;
 pub mod section;
 mod sizing;
 pub mod solve;
-pub mod start;
 pub mod subject;
 pub mod utilisation;
 pub mod verify;

@@ -8,7 +8,6 @@ use std::sync::atomic::AtomicBool;
 use super::choice::{Choice, refuse_if_none_accepts};
 use super::folder::{Folder, FolderError, default_folder};
 use super::pictures;
-use super::start::in_domain;
 use super::{RunError, Subject, Watcher};
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
@@ -71,8 +70,6 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     refuse_if_none_accepts(&request.choices, subject.model())?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings)?;
-    let (start, remark) = in_domain(subject.model(), start);
-    about.warnings.extend(remark);
     let default = default_folder(Path::new(&about.file));
     let folder = Folder::open(request.out.unwrap_or(&default))?;
     folder.remove_old_logs()?;
@@ -89,13 +86,15 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     };
     let traces: Vec<_> = request.choices.iter().map(|choice| RefCell::new(Trace::new(choice.backend.name()))).collect();
     let outcome = observed(&task, &request.choices, &logs, &traces, watcher, subject.sign());
+    about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(logs.iter().filter_map(|log| log.borrow().failure()));
     let volumes = subject.volumes(&outcome.x);
     let solved = Solved { about, outcome, volumes, folder };
     leave_files(&solved.findings(subject), &solved.folder)?;
     if request.plot {
         let traces: Vec<Trace> = traces.into_iter().map(RefCell::into_inner).collect();
-        pictures::leave(&traces, &start, subject, &solved)?;
+        let start = solved.outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
+        pictures::leave(&traces, start, subject, &solved)?;
     }
     Ok(solved)
 }

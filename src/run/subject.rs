@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
-use crate::input;
+use crate::input::{self, Progress};
 use crate::model::differences::Differences;
-use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify};
+use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
 use crate::report::result::Mistake;
@@ -42,7 +42,15 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read(file: &Path, changes: &[String]) -> Result<Subject, RunError> {
-        let input = input::read_with(file, changes).map_err(|mistakes| {
+        Subject::read_watched(file, changes, &|_| {})
+    }
+
+    /// [`Subject::read`], calling `watch` every now and then while tables are read.
+    ///
+    /// # Errors
+    /// All mistakes of the file, its tables and the changes.
+    pub fn read_watched(file: &Path, changes: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Subject, RunError> {
+        let input = input::read_watched(file, changes, watch).map_err(|mistakes| {
             let list = mistakes.list.iter().map(reported).collect();
             RunError::Input(mistakes.to_string(), list)
         })?;
@@ -116,14 +124,20 @@ impl Subject {
         if self.problem.ribs.names.is_empty() {
             return None;
         }
+        let totals = volumes(&self.problem, x, [Total::Own, Total::Frustum, Total::Prismatoid]);
+        let [total, frustum, prismatoid] = totals.or_else(|| self.assembled_volumes(x))?;
+        Some(Volumes { total, frustum, prismatoid })
+    }
+
+    /// The same where dimensions are computed, through a model.
+    fn assembled_volumes(&self, x: &[f64]) -> Option<[f64; 3]> {
         let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
         let objective = Formula::default();
         let problem = Problem { constraints: rows.into(), objective, ..Problem::clone(&self.problem) };
         let model = assemble(&Arc::new(problem)).ok()?;
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;
-        let [total, frustum, prismatoid] = totals;
-        Some(Volumes { total, frustum, prismatoid })
+        Some(totals)
     }
 }
 

@@ -51,7 +51,8 @@ const fn forms() -> [Form; MOST_SEGMENTS + 1] {
     forms
 }
 
-const PROPERTIES: &[&str] = &[
+/// What every line offers besides the thickness of each segment.
+const COMMON: [&str; 15] = [
     "thickness",
     "A",
     "Ix",
@@ -67,23 +68,19 @@ const PROPERTIES: &[&str] = &[
     "width",
     "height",
     "clear",
-    "thickness[1]",
-    "thickness[2]",
-    "thickness[3]",
-    "thickness[4]",
-    "thickness[5]",
-    "thickness[6]",
-    "thickness[7]",
-    "thickness[8]",
-    "thickness[9]",
-    "thickness[10]",
-    "thickness[11]",
-    "thickness[12]",
-    "thickness[13]",
-    "thickness[14]",
-    "thickness[15]",
-    "thickness[16]",
 ];
+
+static PROPERTIES: [&str; COMMON.len() + MOST_SEGMENTS] = properties();
+
+const fn properties() -> [&'static str; COMMON.len() + MOST_SEGMENTS] {
+    let mut all = [""; COMMON.len() + MOST_SEGMENTS];
+    let mut at = 0;
+    while at < all.len() {
+        all[at] = if at < COMMON.len() { COMMON[at] } else { EACH[at - COMMON.len()] };
+        at += 1;
+    }
+    all
+}
 
 /// One thickness for all segments?
 fn uniform(form: &Form) -> bool {
@@ -134,7 +131,7 @@ impl Kind for Polyline {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        PROPERTIES
+        &PROPERTIES
     }
 
     /// `clear` is the shortest side of the outline along a segment: the outline folds over where it is not positive.

@@ -7,7 +7,6 @@ mod interior_point;
 mod opinions;
 mod state;
 #[cfg(test)]
-#[cfg(test)]
 mod tests;
 
 use std::cell::RefCell;
@@ -56,10 +55,8 @@ impl Backend for Argmin {
         let evaluator = Evaluator::new(model, job.budget);
         let (algorithm, finished) = match job.algorithm {
             AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, augmented_lagrangian(&evaluator, job)),
-            _ if job.start_multipliers.is_none()
-                && let Some(pieces) = components::fall_apart(&evaluator) =>
-            {
-                let solver = Components::new(pieces.as_ref(), &evaluator, job.start);
+            _ if let Some(pieces) = components::fall_apart(&evaluator) => {
+                let solver = Components::new(pieces.as_ref(), &evaluator, job.start, job.start_multipliers);
                 (INTERIOR_POINT, run(solver, &evaluator, job))
             }
             _ => {

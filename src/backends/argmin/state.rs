@@ -4,12 +4,13 @@
 use std::collections::HashMap;
 use std::time::Duration;
 
+use argmin::argmin_error;
 use argmin::core::observers::Observe;
 use argmin::core::{Error, KV, Problem, State, TerminationReason, TerminationStatus};
 
 use super::Finished;
 use crate::backends::{Iteration, Termination};
-use crate::model::{EvaluationError, Stop};
+use crate::model::{EvaluationError, Evaluator, Stop};
 
 /// A point with what decides its rank, and what is shown of it.
 #[derive(Debug, Clone)]
@@ -267,6 +268,11 @@ impl<'a> Observe<NlpState<'a>> for Watch {
         Self::show(state, state.iteration + 1);
         Ok(())
     }
+}
+
+/// The model argmin was started with.
+pub(super) fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
+    problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }
 
 #[cfg(test)]

@@ -32,6 +32,8 @@ pub(super) struct Algorithm {
     pub least_variables: usize,
     /// The numbers it stores for n variables and m rows, where that grows faster than n + m.
     pub storage: Option<fn(f64, f64) -> f64>,
+    /// Operations of one iteration for n variables and m rows, where they are more than the numbers stored.
+    pub work: Option<fn(f64, f64) -> f64>,
     /// Evaluations per variable after which it is stopped, where it would not stop by itself.
     pub evaluations_per_variable: Option<u64>,
 }
@@ -45,14 +47,36 @@ const LOCAL: Algorithm = Algorithm {
     gradients: true,
     least_variables: 1,
     storage: None,
+    work: None,
     evaluations_per_variable: None,
 };
 
 /// All of them, in the order users see. Storage is read off NLopt 2.9.1's sources.
 pub(super) const TABLE: [Algorithm; 11] = [
-    Algorithm { name: "slsqp", code: "LD_SLSQP", rows: Rows::All, storage: Some(|n, m| n * (6.0 * n + 4.0 * m)), ..LOCAL },
-    Algorithm { name: "mma", code: "LD_MMA", rows: Rows::Inequalities, storage: Some(|n, m| 2.0 * n * m), ..LOCAL },
-    Algorithm { name: "ccsaq", code: "LD_CCSAQ", rows: Rows::Inequalities, storage: Some(|n, m| 2.0 * n * m), ..LOCAL },
+    Algorithm {
+        name: "slsqp",
+        code: "LD_SLSQP",
+        rows: Rows::All,
+        storage: Some(|n, m| n * (6.0 * n + 4.0 * m)),
+        work: Some(|n, m| n * n * (n + m)),
+        ..LOCAL
+    },
+    Algorithm {
+        name: "mma",
+        code: "LD_MMA",
+        rows: Rows::Inequalities,
+        storage: Some(|n, m| 2.0 * n * m),
+        work: Some(|n, m| DUAL_STEPS * n * m),
+        ..LOCAL
+    },
+    Algorithm {
+        name: "ccsaq",
+        code: "LD_CCSAQ",
+        rows: Rows::Inequalities,
+        storage: Some(|n, m| 2.0 * n * m),
+        work: Some(|n, m| DUAL_STEPS * n * m),
+        ..LOCAL
+    },
     Algorithm { name: "auglag", code: "AUGLAG", inner: Some("LD_LBFGS"), rows: Rows::All, storage: Some(|n, m| n * m), ..LOCAL },
     Algorithm { name: "lbfgs", code: "LD_LBFGS", ..LOCAL },
     Algorithm { name: "tnewton", code: "LD_TNEWTON_PRECOND_RESTART", ..LOCAL },
@@ -108,6 +132,10 @@ pub(super) const NAMES: [&str; TABLE.len()] = {
 
 /// Numbers a dense algorithm may store: 400 MB.
 const STORAGE: f64 = 5e7;
+/// Operations of one iteration of an algorithm that is still quick.
+const WORK: f64 = 1e8;
+/// Steps in which MMA and CCSAQ solve the dual of one subproblem, in m variables.
+const DUAL_STEPS: f64 = 1e3;
 
 /// The algorithm of this name.
 pub(super) fn find(name: &str) -> Option<&'static Algorithm> {
@@ -156,7 +184,12 @@ impl Algorithm {
 
     /// Whether the problem is so small that this algorithm is quick on it.
     pub fn is_quick(&self, meta: &Meta) -> bool {
-        self.obstacle(meta).is_none() && self.fits(&Size::of(meta), STORAGE / 50.0)
+        let size = Size::of(meta);
+        let is_quick = match self.work {
+            Some(work) => work(size.variables as f64, size.rows() as f64) <= WORK,
+            None => self.fits(&size, STORAGE / 50.0),
+        };
+        self.obstacle(meta).is_none() && is_quick
     }
 }
 

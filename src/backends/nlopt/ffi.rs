@@ -90,9 +90,11 @@ pub(super) struct Outcome {
     pub panic: Option<String>,
 }
 
-/// Steps of the dual problem inside one iteration of MMA and CCSAQ: NLopt's own limit of 100 000 can take minutes
-/// without a single evaluation, in which nothing could stop it.
-const DUAL_STEPS: f64 = 2_000.0;
+/// Steps of the dual problem, in one variable per row, inside one iteration of MMA and CCSAQ: NLopt's own limit of 100 000 can
+/// take minutes without a single evaluation, in which nothing could stop it; where rows conflict the dual has no end.
+fn dual_steps(rows: usize) -> f64 {
+    (100.0 * (rows as f64 + 1.0)).clamp(200.0, 2_000.0)
+}
 
 struct Optimizer(Handle);
 
@@ -236,7 +238,7 @@ pub(super) fn minimise(setup: &Setup<'_>, functions: &mut dyn Functions, x: &mut
             inner.set_tolerance(setup.tolerance);
             nlopt_set_local_optimizer(optimizer.0, inner.0);
         }
-        nlopt_set_param(optimizer.0, c"dual_maxeval".as_ptr(), DUAL_STEPS);
+        nlopt_set_param(optimizer.0, c"dual_maxeval".as_ptr(), dual_steps(setup.inequalities));
         nlopt_set_maxeval(optimizer.0, c_int::try_from(setup.evaluations).unwrap_or(c_int::MAX));
         nlopt_set_maxtime(optimizer.0, setup.seconds.unwrap_or(0.0));
         let steps = [

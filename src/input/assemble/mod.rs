@@ -18,11 +18,10 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use sha2::Sha256;
-
 use super::declaration::{Declaration, Name};
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
+use super::table::Tables;
 use crate::expression::ast::Collection;
 use crate::geometry::polygon::Ring;
 use crate::problem::names::{Entity, Names};
@@ -58,14 +57,13 @@ pub(super) struct Assembly<'a> {
     used: Vec<(Collection, u32)>,
 }
 
-/// Puts the problem together; `checksum` takes in the tables that are read on the way.
+/// Puts the problem together, reading the tables on the way.
 pub(super) fn assemble(
     mut declared: Declaration,
     source: &Source,
     findings: Findings,
     arguments: &[String],
-    folder: &Path,
-    checksum: &mut Sha256,
+    tables: &mut Tables<'_>,
 ) -> (Problem, Findings) {
     let mut assembly = Assembly::new(source, findings);
     let overrides = assembly.overrides(arguments);
@@ -74,7 +72,7 @@ pub(super) fn assemble(
     assembly.variables(&declared.variables);
     assembly.profiles(&declared);
     assembly.items(&declared);
-    assembly.tables(&declared, folder, checksum);
+    assembly.tables(&declared, tables);
     assembly.finish_items();
     assembly.apply(&overrides);
     assembly.check_variables();

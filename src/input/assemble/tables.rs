@@ -2,33 +2,29 @@
 
 mod columns;
 
-use std::path::Path;
-
-use sha2::Sha256;
-
 use super::Assembly;
 use super::items::{Given, GivenValue};
 use crate::input::declaration::{Declaration, Name, Range};
 use crate::input::fields::Scalar;
 use crate::input::source::Written;
-use crate::input::table::{Row, Table};
+use crate::input::table::{Row, Tables};
 use crate::problem::VolumeLaw;
 use columns::{Dimension, RibColumns, SectionColumns};
 
 impl Assembly<'_> {
     /// Reads both tables, and joins all ribs to their sections.
-    pub(super) fn tables(&mut self, declared: &Declaration, folder: &Path, checksum: &mut Sha256) {
+    pub(super) fn tables(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
         if let Some(written) = &declared.section_table {
-            self.section_table(written, folder, checksum);
+            self.section_table(written, tables);
         }
         if let Some(written) = &declared.rib_table {
-            self.rib_table(written, folder, checksum);
+            self.rib_table(written, tables);
         }
         self.late_ends(&declared.ribs);
     }
 
-    fn section_table(&mut self, written: &Written, folder: &Path, checksum: &mut Sha256) {
-        let Some(mut table) = Table::open(written, folder, checksum, &mut self.findings) else { return };
+    fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
+        let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.section_row(&row, &columns);
@@ -78,8 +74,8 @@ impl Assembly<'_> {
         number(row.field(at)).or_else(|| self.constant(&Scalar::Expression(row.written(at))))
     }
 
-    fn rib_table(&mut self, written: &Written, folder: &Path, checksum: &mut Sha256) {
-        let Some(mut table) = Table::open(written, folder, checksum, &mut self.findings) else { return };
+    fn rib_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
+        let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = RibColumns::of(&table, self) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.rib_row(&row, &columns);

@@ -16,8 +16,9 @@ pub(super) fn settings(mut fields: Fields, settings: &mut Settings, reader: &mut
     count(&mut fields, "max_iterations", &mut settings.max_iterations, reader);
     count(&mut fields, "max_evaluations", &mut settings.max_evaluations, reader);
     if let Some(field) = fields.take("max_seconds") {
-        let positive = |value: f64| value > 0.0;
-        settings.max_seconds = checked(&field, positive, "a positive number", reader).unwrap_or(settings.max_seconds);
+        let not_negative = |value: f64| value >= 0.0;
+        settings.max_seconds =
+            checked(&field, not_negative, "a number of seconds, 0 or more", reader).unwrap_or(settings.max_seconds);
     }
     algorithm(&mut fields, "nlopt", NLOPT_ALGORITHMS, &mut settings.nlopt_algorithm, reader);
     algorithm(&mut fields, "argmin", ARGMIN_ALGORITHMS, &mut settings.argmin_algorithm, reader);

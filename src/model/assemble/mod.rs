@@ -9,6 +9,7 @@ mod profile;
 mod sum;
 mod survey;
 mod template;
+mod volumes;
 mod walk;
 
 use std::sync::{Arc, OnceLock};
@@ -24,6 +25,7 @@ use facts::Facts;
 use groups::{Groups, Kernels};
 use lower::{Context, Item};
 use sum::{Summation, Templates};
+pub use volumes::volumes;
 use walk::Walk;
 
 /// Assembles objective and rows with their derivatives and sparsity patterns.
@@ -175,6 +177,19 @@ fn context(scope: &Scope, item: usize) -> Context<'_> {
     }
 }
 
+/// The coefficients of affine rows at their places in the Jacobian's pattern; zero elsewhere.
+fn scattered(rows: &[Affine], jacobian: &Pattern) -> Vec<f64> {
+    let mut values = vec![0.0; jacobian.len()];
+    for (row, affine) in rows.iter().enumerate() {
+        for &(j, coefficient) in &affine.coefficients {
+            if let Some(at) = jacobian.position(row, j) {
+                values[at] = coefficient;
+            }
+        }
+    }
+    values
+}
+
 /// Fixes the patterns and tells every element where its derivatives go.
 fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
     let (n, m) = (problem.variables.lower.len(), rows.affine.len());
@@ -190,14 +205,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
     for group in objective_groups.iter_mut().chain(&mut row_groups) {
         group.connect(&jacobian, &hessian);
     }
-    let mut linear_jacobian = vec![0.0; jacobian.len()];
-    for (row, affine) in rows.affine.iter().enumerate() {
-        for &(j, coefficient) in &affine.coefficients {
-            if let Some(at) = jacobian.position(row, j) {
-                linear_jacobian[at] = coefficient;
-            }
-        }
-    }
+    let linear_jacobian = scattered(&rows.affine, &jacobian);
     let meta = Meta {
         lower: problem.variables.lower.clone(),
         upper: problem.variables.upper.clone(),
@@ -219,5 +227,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         row_groups,
         row_origin: rows.origin,
         members: OnceLock::new(),
+        stretches: OnceLock::new(),
     }
 }

@@ -125,20 +125,15 @@ impl<'a> Walk<'a> {
                 Item::Rib(rib) => self.volume(rib, Total::Own, weight, sink),
                 _ => Ok(()),
             },
-            whole => {
-                let (plan, gathered) = (Plan::default(), Gathered::default());
-                let lower = |lowering: &mut Lowering| lowering.formula(whole, context);
-                sink.piece(&Piece {
-                    work: None,
-                    gathered: &gathered,
-                    weight,
-                    rib: None,
-                    plan: &plan,
-                    item: context.item,
-                    lower: &lower,
-                })
-            }
+            whole => self.whole(whole, weight, context, sink),
         }
+    }
+
+    /// What cannot be taken apart is one piece that shares nothing.
+    fn whole(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+        let (plan, gathered) = (Plan::default(), Gathered::default());
+        let lower = |lowering: &mut Lowering| lowering.formula(formula, context);
+        sink.piece(&Piece { work: None, gathered: &gathered, weight, rib: None, plan: &plan, item: context.item, lower: &lower })
     }
 
     /// The value of a formula without variables.

@@ -22,6 +22,10 @@ impl Components for Apart<'_> {
         self.model.objective.constant
     }
 
+    fn has_positive_objective(&self) -> bool {
+        self.members.positive
+    }
+
     fn local(&self) -> Box<dyn Local + '_> {
         Box::new(RibLocal {
             apart: *self,

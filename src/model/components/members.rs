@@ -17,6 +17,8 @@ pub struct Members {
     pub(super) partition: Partition,
     offsets: Vec<u32>,
     members: Vec<Member>,
+    /// Whether the objective is a sum of volumes.
+    pub(super) positive: bool,
 }
 
 impl Members {
@@ -46,7 +48,8 @@ impl Members {
                 *at += 1;
             }
         }
-        Some(Members { partition, offsets, members })
+        let positive = model.objective.coefficients.is_empty() && model.objective_groups.iter().all(Group::is_volume);
+        Some(Members { partition, offsets, members, positive })
     }
 
     /// The elements of component k, those of the objective first.

@@ -11,8 +11,6 @@ mod local;
 mod members;
 mod part;
 mod partition;
-#[cfg(test)]
-mod tests;
 
 pub(super) use local::Apart;
 pub use members::Members;
@@ -27,6 +25,11 @@ pub trait Components: Sync {
 
     /// What the objective holds besides the components.
     fn constant(&self) -> f64;
+
+    /// Whether every f_k is a sum of volumes: positive wherever it makes sense.
+    fn has_positive_objective(&self) -> bool {
+        false
+    }
 
     /// An evaluator for one component at a time, with working memory of its own: one per thread.
     fn local(&self) -> Box<dyn Local + '_>;

@@ -49,6 +49,7 @@ impl Part {
             objective_groups,
             row_groups,
             members: OnceLock::new(),
+            stretches: OnceLock::new(),
         };
         Part { inner, variables: variables.to_vec() }
     }

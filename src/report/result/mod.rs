@@ -31,9 +31,13 @@ pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let meta = findings.model.meta();
     if meta.variables() + meta.rows() <= MOST_PRETTY {
         serde_json::to_writer_pretty(&mut *out, &ResultFile(findings))?;
-    } else {
-        serde_json::to_writer(&mut *out, &ResultFile(findings))?;
+        return out.write_all(b"\n");
     }
+    let (head, tail) = (serde_json::to_vec(&Head(findings))?, serde_json::to_vec(&Tail(findings))?);
+    out.write_all(head.strip_suffix(b"}").unwrap_or(&head))?;
+    point::write_lists(findings, out)?;
+    out.write_all(b",")?;
+    out.write_all(tail.strip_prefix(b"{").unwrap_or(&tail))?;
     out.write_all(b"\n")
 }
 
@@ -50,8 +54,22 @@ struct ResultFile<'a>(&'a Findings<'a>);
 
 impl Serialize for ResultFile<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (findings, mut map) = (self.0, serializer.serialize_map(None)?);
+        Head(findings).entries(&mut map)?;
+        map.serialize_entry("variables", &Point { findings, x: &findings.outcome.x })?;
+        map.serialize_entry("bounds", &BoundsPart(findings))?;
+        map.serialize_entry("constraints", &ConstraintsPart(findings))?;
+        Tail(findings).entries(&mut map)?;
+        map.end()
+    }
+}
+
+/// What stands before the lists of variables and rows.
+struct Head<'a>(&'a Findings<'a>);
+
+impl Head<'_> {
+    fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         let (findings, outcome) = (self.0, self.0.outcome);
-        let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("format", FORMAT)?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
         map.serialize_entry("problem", &ProblemPart::of(findings))?;
@@ -61,10 +79,24 @@ impl Serialize for ResultFile<'_> {
         map.serialize_entry("remedy", &outcome.remedy)?;
         map.serialize_entry("objective", &findings.objective())?;
         map.serialize_entry("lower_bound", &findings.lower_bound())?;
-        map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)?;
-        map.serialize_entry("variables", &Point { findings, x: &outcome.x })?;
-        map.serialize_entry("bounds", &BoundsPart(findings))?;
-        map.serialize_entry("constraints", &ConstraintsPart(findings))?;
+        map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)
+    }
+}
+
+impl Serialize for Head<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.entries(&mut map)?;
+        map.end()
+    }
+}
+
+/// What stands after them.
+struct Tail<'a>(&'a Findings<'a>);
+
+impl Tail<'_> {
+    fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        let (findings, outcome) = (self.0, self.0.outcome);
         map.serialize_entry("solutions", &SolutionsPart(findings))?;
         map.serialize_entry("agreement", &outcome.agreement.map(AgreementPart::from))?;
         map.serialize_entry("conflict", &ConflictPart::of(findings))?;
@@ -72,7 +104,14 @@ impl Serialize for ResultFile<'_> {
         map.serialize_entry("runaway", &names(&outcome.runaway, |j| findings.model.variable_name(j)))?;
         map.serialize_entry("minima", &MinimaPart(findings))?;
         map.serialize_entry("warnings", &findings.about.warnings)?;
-        map.serialize_entry("mistakes", &[(); 0])?;
+        map.serialize_entry("mistakes", &[(); 0])
+    }
+}
+
+impl Serialize for Tail<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.entries(&mut map)?;
         map.end()
     }
 }

@@ -1,8 +1,10 @@
 //! The reported point: values, bounds, rows.
 
+use std::io::{self, Write};
+
 use serde::{Serialize, Serializer};
 
-use super::super::Findings;
+use super::super::{Findings, Held, blocks};
 
 /// Values by variable name.
 pub(super) struct Point<'a> {
@@ -22,18 +24,7 @@ pub(super) struct BoundsPart<'a>(pub &'a Findings<'a>);
 
 impl Serialize for BoundsPart<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Bound {
-            name: String,
-            active: &'static str,
-            multiplier: f64,
-            sensitivity: f64,
-        }
-        serializer.collect_seq((0..self.0.model.meta().variables()).map(|j| {
-            let held = self.0.bound(j);
-            let (multiplier, sensitivity) = (held.multiplier, held.sensitivity);
-            Bound { name: self.0.model.variable_name(j), active: held.side.as_str(), multiplier, sensitivity }
-        }))
+        serializer.collect_seq((0..self.0.model.meta().variables()).map(|j| Bound::of(self.0, j)))
     }
 }
 
@@ -41,28 +32,83 @@ pub(super) struct ConstraintsPart<'a>(pub &'a Findings<'a>);
 
 impl Serialize for ConstraintsPart<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Row {
-            name: String,
-            value: f64,
-            lower: f64,
-            upper: f64,
-            active: &'static str,
-            multiplier: f64,
-            sensitivity: f64,
-        }
-        let meta = self.0.model.meta();
-        serializer.collect_seq((0..meta.rows()).map(|i| {
-            let held = self.0.row(i);
-            Row {
-                name: self.0.model.row_name(i),
-                value: self.0.row_value(i),
-                lower: meta.row_lower[i],
-                upper: meta.row_upper[i],
-                active: held.side.as_str(),
-                multiplier: held.multiplier,
-                sensitivity: held.sensitivity,
-            }
-        }))
+        serializer.collect_seq((0..self.0.model.meta().rows()).map(|i| Row::of(self.0, i)))
     }
+}
+
+#[derive(Serialize)]
+struct Bound {
+    name: String,
+    active: &'static str,
+    multiplier: f64,
+    sensitivity: f64,
+}
+
+impl Bound {
+    fn of(findings: &Findings<'_>, j: usize) -> Bound {
+        let Held { side, multiplier, sensitivity } = findings.bound(j);
+        Bound { name: findings.model.variable_name(j), active: side.as_str(), multiplier, sensitivity }
+    }
+}
+
+#[derive(Serialize)]
+struct Row {
+    name: String,
+    value: f64,
+    lower: f64,
+    upper: f64,
+    active: &'static str,
+    multiplier: f64,
+    sensitivity: f64,
+}
+
+impl Row {
+    fn of(findings: &Findings<'_>, i: usize) -> Row {
+        let (meta, held) = (findings.model.meta(), findings.row(i));
+        Row {
+            name: findings.model.row_name(i),
+            value: findings.row_value(i),
+            lower: meta.row_lower[i],
+            upper: meta.row_upper[i],
+            active: held.side.as_str(),
+            multiplier: held.multiplier,
+            sensitivity: held.sensitivity,
+        }
+    }
+}
+
+/// The three lists as further entries of an object, block by block: `,"variables":{…},"bounds":[…],"constraints":[…]`.
+///
+/// # Errors
+/// Whatever the writer says.
+pub(super) fn write_lists(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let (meta, x) = (findings.model.meta(), &findings.outcome.x);
+    out.write_all(b",\"variables\":{")?;
+    list(out, x.len(), |j, block| {
+        serde_json::to_writer(&mut *block, &findings.model.variable_name(j))?;
+        block.push(b':');
+        serde_json::to_writer(block, &x[j])
+    })?;
+    out.write_all(b"},\"bounds\":[")?;
+    list(out, meta.variables(), |j, block| serde_json::to_writer(block, &Bound::of(findings, j)))?;
+    out.write_all(b"],\"constraints\":[")?;
+    list(out, meta.rows(), |i, block| serde_json::to_writer(block, &Row::of(findings, i)))?;
+    out.write_all(b"]")
+}
+
+fn list(
+    out: &mut dyn Write,
+    count: usize,
+    entry: impl Fn(usize, &mut Vec<u8>) -> serde_json::Result<()> + Sync,
+) -> io::Result<()> {
+    blocks::write(out, count, |range| {
+        let mut block = Vec::new();
+        for at in range {
+            if at > 0 {
+                block.push(b',');
+            }
+            entry(at, &mut block)?;
+        }
+        Ok(block)
+    })
 }

@@ -28,7 +28,9 @@ pub(super) struct Header {
     pub penalty: f64,
     /// The regularisation last needed.
     pub regularisation: f64,
-    /// What the objective is multiplied by.
+    /// Whether the objective is taken by its logarithm.
+    pub logarithmic: bool,
+    /// What the objective, or its logarithm, is multiplied by.
     pub objective_scale: f64,
     /// f_k(x), unscaled.
     pub objective: f64,
@@ -44,6 +46,17 @@ pub(super) struct Header {
     pub evaluations: u32,
     /// The barrier parameter at which the active set was last tried.
     pub tried: f64,
+}
+
+impl Header {
+    /// A value of the objective, scaled, and what its derivatives are multiplied by.
+    pub fn scaled(&self, objective: f64) -> (f64, f64) {
+        if self.logarithmic {
+            (self.objective_scale * objective.ln(), self.objective_scale / objective)
+        } else {
+            (self.objective_scale * objective, self.objective_scale)
+        }
+    }
 }
 
 /// One component's iterate, scaled: n variables, then m slacks, with bounds' multipliers, and the rows' own.
@@ -82,6 +95,7 @@ impl Arena {
                 mu: 0.0,
                 penalty: 0.0,
                 regularisation: 0.0,
+                logarithmic: false,
                 objective_scale: 1.0,
                 objective: 0.0,
                 violation: 0.0,

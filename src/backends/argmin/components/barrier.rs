@@ -15,14 +15,3 @@ pub(super) fn value(mu: f64, (below, above): (f64, f64)) -> f64 {
     let term = |distance: f64| if distance.is_finite() { -mu * distance.ln() } else { 0.0 };
     term(below) + term(above)
 }
-
-/// Moves a value inside its bounds by a share of the room there is.
-pub(super) fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
-    let room = |bound: f64| (push * bound.abs().max(1.0)).min(push * (upper - lower));
-    match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => value.max(lower + room(lower)).min(upper - room(upper)),
-        (true, false) => value.max(lower + push * lower.abs().max(1.0)),
-        (false, true) => value.min(upper - push * upper.abs().max(1.0)),
-        (false, false) => value,
-    }
-}

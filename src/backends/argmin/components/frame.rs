@@ -1,8 +1,8 @@
 //! One component in the small solver's form: scaled, with slacks; one frame per thread.
 //!
 //! min f(x) subject to c(x) − s = 0 and bounds on w = (x, s). Variables with a positive lower bound are taken by their
-//! logarithms, and so are nonlinear rows with positive limits: products, powers and quotients, of which structural formulas are
-//! made, become linear or nearly so. The other variables are scaled by powers of two.
+//! logarithms, and so are nonlinear rows with positive limits, and an objective that is positive by nature: products, powers and
+//! quotients, of which structural formulas are made, become linear or nearly so, sums of them convex. The other variables are scaled by powers of two.
 
 use super::arena::{Header, Piece};
 use crate::model::Meta;
@@ -15,6 +15,7 @@ const FLAT: f64 = 1e-12;
 pub(super) struct Frame<'m> {
     meta: &'m Meta,
     start: &'m [f64],
+    is_positive: bool,
     partition: &'m Partition,
     local: Box<dyn Local + 'm>,
     pub n: usize,
@@ -67,11 +68,23 @@ fn outward(d: f64, w: f64) -> f64 {
     if d == 0.0 { w.exp() } else { d * w }
 }
 
+/// Subtracts weight·vvᵀ from a lower triangle.
+fn subtract_square(matrix: &mut [f64], weight: f64, v: &[f64]) {
+    let n = v.len();
+    for (j, &own) in v.iter().enumerate().filter(|(_, own)| **own != 0.0) {
+        let factor = weight * own;
+        for (entry, other) in matrix[j * n..=j * n + j].iter_mut().zip(v) {
+            *entry -= factor * other;
+        }
+    }
+}
+
 impl<'m> Frame<'m> {
     pub fn new(components: &'m dyn Components, meta: &'m Meta, start: &'m [f64]) -> Self {
         Frame {
             meta,
             start,
+            is_positive: components.has_positive_objective(),
             partition: components.partition(),
             local: components.local(),
             n: 0,
@@ -139,10 +152,15 @@ impl<'m> Frame<'m> {
         self.partition.variables(component).iter().zip(&self.d).map(|(&j, &d)| inward(d, self.start[j as usize]))
     }
 
-    /// Scales of objective and rows by the gradients evaluated last (with all scales 1).
+    /// Whether the objective evaluated last may be taken by its logarithm.
+    pub fn has_logarithm(&self) -> bool {
+        self.is_positive && self.objective > 0.0
+    }
+
+    /// Scales of objective and rows by the gradients evaluated last (with all scales 1, and no logarithm of the objective).
     pub fn choose_scales(&mut self, piece: &mut Piece<'_>) {
         let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let size = largest(&self.gradient);
+        let size = largest(&self.gradient) / if piece.header.logarithmic { self.objective } else { 1.0 };
         piece.header.objective_scale = if size > 0.0 { 1.0 / size } else { 1.0 };
         for (i, scale) in piece.row_scale.iter_mut().enumerate() {
             let slope = largest(&self.jacobian[i * self.n..(i + 1) * self.n]);
@@ -170,25 +188,32 @@ impl<'m> Frame<'m> {
         }
     }
 
-    /// Scaled f at w; `rows` holds the scaled c(x) afterwards. NaN or infinite where the model is.
-    pub fn values(&mut self, w: &[f64], header: &mut Header, row_scale: &[f64]) -> f64 {
+    /// Scaled f and rows at w. `false`: some are no numbers.
+    pub fn values(&mut self, w: &[f64], header: &mut Header, row_scale: &[f64]) -> bool {
         self.place(w);
         header.evaluations += 1;
-        self.objective = header.objective_scale * self.local.values(&self.x, &mut self.natural_rows);
+        let natural = self.local.values(&self.x, &mut self.natural_rows);
+        self.objective = header.scaled(natural).0;
         self.scale_rows(row_scale);
-        if self.rows.iter().all(|row| row.is_finite()) { self.objective } else { f64::NAN }
+        self.objective.is_finite() && self.rows.iter().all(|row| row.is_finite())
+    }
+
+    /// The longest step of variable j worth its Newton matrix: its whole range, or a factor e⁴, or tenfold.
+    pub fn reach(&self, j: usize, w: f64) -> f64 {
+        let far = if self.d[j] == 0.0 { 4.0 } else { 10.0 * w.abs().max(1.0) };
+        far.min(self.upper[j] - self.lower[j])
     }
 
     /// Values and first derivatives at w, scaled. `false`: some are no numbers.
     pub fn first_order(&mut self, w: &[f64], header: &mut Header, row_scale: &[f64]) -> bool {
         self.place(w);
         header.evaluations += 1;
-        self.objective = self.local.first_order(&self.x, &mut self.natural_rows, &mut self.gradient, &mut self.jacobian);
-        header.objective = self.objective;
-        self.objective *= header.objective_scale;
+        header.objective = self.local.first_order(&self.x, &mut self.natural_rows, &mut self.gradient, &mut self.jacobian);
+        let (objective, weight) = header.scaled(header.objective);
+        self.objective = objective;
         self.scale_rows(row_scale);
         for (gradient, slope) in self.gradient.iter_mut().zip(&self.slopes) {
-            *gradient *= slope * header.objective_scale;
+            *gradient *= slope * weight;
         }
         for (i, jacobian) in self.jacobian.chunks_exact_mut(self.n.max(1)).enumerate() {
             let scale = if self.logarithmic_rows[i] { row_scale[i] / self.natural_rows[i] } else { row_scale[i] };
@@ -205,30 +230,27 @@ impl<'m> Frame<'m> {
             let scale = y[i] * row_scale[i];
             *weight = if self.logarithmic_rows[i] { scale / self.natural_rows[i] } else { scale };
         }
-        self.local.hessian(&self.x, header.objective_scale, &self.weights, &mut self.hessian);
+        self.local.hessian(&self.x, header.scaled(header.objective).1, &self.weights, &mut self.hessian);
         for (i, row) in self.hessian.chunks_exact_mut(n.max(1)).enumerate() {
             row.iter_mut().zip(&self.slopes[..=i]).for_each(|(entry, slope)| *entry *= self.slopes[i] * slope);
         }
-        self.add_bends(y, row_scale);
+        self.add_bends(y, header, row_scale);
         (0..n).all(|i| self.hessian[i * n..=i * n + i].iter().all(|entry| entry.is_finite()))
     }
 
-    /// What the logarithms of variables and rows bend by themselves: diag(∂L/∂w) where x = exp(w), −∇ĉ∇ĉᵀ of logarithmic rows.
-    fn add_bends(&mut self, y: &[f64], row_scale: &[f64]) {
+    /// What the logarithms bend by themselves: diag(∂L/∂w) where x = exp(w), −∇ĉ∇ĉᵀ of logarithmic rows and objective.
+    fn add_bends(&mut self, y: &[f64], header: &Header, row_scale: &[f64]) {
         let n = self.n;
         for j in (0..n).filter(|&j| self.d[j] == 0.0) {
             let pull: f64 = y.iter().enumerate().map(|(i, y)| y * self.jacobian[i * n + j]).sum();
             self.hessian[j * n + j] += self.gradient[j] + pull;
         }
-        for (i, row) in self.jacobian.chunks_exact(n.max(1)).enumerate().filter(|&(i, _)| self.logarithmic_rows[i] && y[i] != 0.0)
-        {
-            let weight = y[i] / row_scale[i];
-            for (j, &slope) in row.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
-                let factor = weight * slope;
-                for (entry, other) in self.hessian[j * n..=j * n + j].iter_mut().zip(row) {
-                    *entry -= factor * other;
-                }
-            }
+        let rows = self.jacobian.chunks_exact(n.max(1)).enumerate().filter(|&(i, _)| self.logarithmic_rows[i] && y[i] != 0.0);
+        for (i, row) in rows {
+            subtract_square(&mut self.hessian, y[i] / row_scale[i], row);
+        }
+        if header.logarithmic {
+            subtract_square(&mut self.hessian, 1.0 / header.objective_scale, &self.gradient);
         }
     }
 
@@ -269,8 +291,29 @@ impl<'m> Frame<'m> {
             let (lower, upper) = (self.meta.row_lower[i as usize], self.meta.row_upper[i as usize]);
             let limit = if lower > 0.0 && (piece.y[at] < 0.0 || upper == f64::INFINITY) { lower } else { upper };
             let value = if self.logarithmic_rows[at] { limit } else { 1.0 };
-            piece.row_scale[at] / piece.header.objective_scale / value
+            piece.row_scale[at] / piece.header.scaled(piece.header.objective).1 / value
         })
+    }
+
+    /// Takes the start for an answer, with the multipliers of all rows: on the limits whose multipliers say so.
+    pub fn take_start(&self, piece: &mut Piece<'_>, multipliers: &[f64]) {
+        let x: Vec<f64> = self.partition.variables(piece.component).iter().map(|&j| self.start[j as usize]).collect();
+        let y: Vec<f64> = self.partition.rows(piece.component).iter().map(|&i| multipliers[i as usize]).collect();
+        self.take(piece, &x, &y);
+        for (i, &y) in y.iter().enumerate() {
+            let at = self.n + i;
+            piece.w[at] = if y > 0.0 {
+                self.upper[at]
+            } else if y < 0.0 {
+                self.lower[at]
+            } else {
+                self.rows[i]
+            };
+        }
+        for (at, &w) in piece.w.iter().enumerate() {
+            piece.z_lower[at] = f64::from(u8::from(w <= self.lower[at]));
+            piece.z_upper[at] = f64::from(u8::from(w >= self.upper[at]));
+        }
     }
 
     /// Takes unscaled values and multipliers as the piece's iterate.

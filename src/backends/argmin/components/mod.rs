@@ -1,11 +1,11 @@
-//! A model that falls apart, solved component by component side by side, as one argmin solver: one argmin iteration is one
-//! step of every component that is not done.
+//! A model that falls apart, solved component by component side by side, as one argmin solver: in one argmin iteration every
+//! component that is not done takes up to five Newton steps.
 //!
 //! | file | subject |
 //! |---|---|
 //! | [`arena`] | the iterates of all components |
 //! | [`frame`] | one component, scaled, with slacks |
-//! | [`step`], [`newton`], [`barrier`] | one iteration of the small interior point |
+//! | [`step`], [`newton`], [`search`], [`barrier`] | the iterations of the small interior point |
 //! | [`crossover`] | from the barrier's path to the minimum itself |
 //!
 //! Components the small solver cannot do go to the sparse interior point, each as a model of its own. Nothing depends on the
@@ -16,14 +16,14 @@ mod barrier;
 mod crossover;
 mod frame;
 mod newton;
+mod search;
 mod step;
 
-use argmin::argmin_error;
 use argmin::core::{Error, KV, Problem, Solver, State};
 use rayon::prelude::*;
 
 use super::interior_point;
-use super::state::{Conclusion, NlpState, Point};
+use super::state::{Conclusion, NlpState, Point, given};
 use crate::backends::Termination;
 use crate::model::components::Components as Pieces;
 use crate::model::{Budget, EvaluationError, Evaluator, Model};
@@ -37,6 +37,8 @@ const LARGEST: usize = 64;
 const FEWEST_VARIABLES: usize = 200;
 /// Components a thread takes at a time.
 const BATCH: usize = 128;
+/// Steps every component takes in one iteration: turning from one to the next costs about as much as a step.
+const STEPS: u32 = 5;
 
 /// Whether this model is worth taking apart.
 pub(super) fn fall_apart(model: &dyn Model) -> Option<Box<dyn Pieces + '_>> {
@@ -47,24 +49,27 @@ pub(super) fn fall_apart(model: &dyn Model) -> Option<Box<dyn Pieces + '_>> {
 pub(super) struct Components<'a> {
     pieces: &'a dyn Pieces,
     start: &'a [f64],
+    multipliers: Option<&'a [f64]>,
     arena: Arena,
 }
 
 impl<'a> Components<'a> {
-    /// From `start`.
-    pub fn new(pieces: &'a dyn Pieces, model: &'a dyn Model, start: &'a [f64]) -> Self {
+    /// From `start`, an earlier answer where there are multipliers.
+    pub fn new(pieces: &'a dyn Pieces, model: &'a dyn Model, start: &'a [f64], multipliers: Option<&'a [f64]>) -> Self {
         let arena = Arena::new(pieces.partition(), model.meta(), LARGEST);
-        Components { pieces, start, arena }
+        Components { pieces, start, multipliers, arena }
     }
 
-    /// One step of every component under way; hard ones are solved to their end.
+    /// Some steps of every component under way; hard ones are solved to their end. A budget that runs out leaves the rest.
     fn advance(&mut self, model: &'a Evaluator<'a>) {
-        let (meta, pieces, start) = (model.meta(), self.pieces, self.start);
-        let stepper = || Stepper::new(Frame::new(pieces, meta, start));
+        let (meta, pieces, start, multipliers) = (model.meta(), self.pieces, self.start, self.multipliers);
+        let stepper = || Stepper::new(Frame::new(pieces, meta, start), multipliers);
         let mut running = self.arena.pieces(pieces.partition(), |phase| matches!(phase, Phase::New | Phase::Running));
-        running.par_chunks_mut(BATCH).for_each(|batch| {
-            let mut stepper = stepper();
-            batch.iter_mut().for_each(|piece| stepper.step(piece));
+        let may_go_on = || model.budget().check(model.evaluations()).is_ok();
+        running.par_chunks_mut(BATCH).for_each_init(stepper, |stepper, batch| {
+            if may_go_on() {
+                batch.iter_mut().for_each(|piece| stepper.advance(piece, STEPS));
+            }
         });
         let mut hard = self.arena.pieces(pieces.partition(), |phase| phase == Phase::Hard);
         let budget = Budget { max_evaluations: u64::MAX, ..*model.budget() };
@@ -120,14 +125,17 @@ impl<'a> Components<'a> {
         let headers = self.arena.headers();
         let failed = headers.iter().filter(|header| header.phase != Phase::Solved).count();
         let error = headers.iter().map(|header| header.error).fold(0.0, f64::max);
-        let count = headers.len();
+        let (count, steps) = (headers.len(), headers.iter().map(|header| header.iterations).max().unwrap_or(0));
         if !self.is_done() {
             let message =
                 format!("the limit on iterations is reached: {failed} of {count} independent components are not solved");
             return Conclusion { termination: Termination::LimitReached, message, invalid: None };
         }
         let (termination, message) = if failed == 0 {
-            (Termination::Converged, format!("{count} independent components, optimality error {error:.1e}"))
+            (
+                Termination::Converged,
+                format!("{count} independent components, at most {steps} Newton steps each, optimality error {error:.1e}"),
+            )
         } else {
             (Termination::Failed, format!("{failed} of {count} independent components were not solved"))
         };
@@ -191,8 +199,4 @@ impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for Components<'a> {
         let answer = self.answer(model);
         Ok((state.conclude(self.conclusion(), Some(answer)), None))
     }
-}
-
-fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
-    problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }

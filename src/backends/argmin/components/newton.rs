@@ -5,7 +5,7 @@
 //! ```
 //! The matrix is positive definite exactly where the whole KKT matrix has the inertia of a minimum: there are no equalities.
 
-use super::arena::{Header, Piece};
+use super::arena::Piece;
 use super::barrier::{distances, force};
 use super::frame::Frame;
 use crate::linear_algebra::cholesky;
@@ -38,10 +38,20 @@ impl Newton {
     pub fn compute(&mut self, frame: &Frame<'_>, piece: &mut Piece<'_>) -> bool {
         self.barrier_terms(frame, piece);
         self.condense(frame);
-        if !self.factorise(frame, piece.header) {
-            return false;
+        let last = piece.header.regularisation;
+        let mut delta = 0.0;
+        // Where the matrix is all but singular the step is endless, and of no more use than where it is indefinite.
+        while !(self.factorise(frame.n, delta) && self.solve(frame, piece)) {
+            delta = match (delta, last) {
+                (0.0, 0.0) => FIRST,
+                (0.0, last) => (last * DECREASE).max(SMALLEST),
+                (now, _) => now * INCREASE,
+            };
+            if delta > LARGEST {
+                return false;
+            }
+            piece.header.regularisation = delta;
         }
-        self.solve(frame, piece);
         self.multiplier_steps(frame, piece);
         true
     }
@@ -86,33 +96,17 @@ impl Newton {
         self.matrix[j * n + j] = 1.0;
     }
 
-    fn factorise(&mut self, frame: &Frame<'_>, header: &mut Header) -> bool {
-        let n = frame.n;
-        let mut delta = 0.0;
-        loop {
-            self.factor.clear();
-            self.factor.extend_from_slice(&self.matrix);
-            for j in 0..n {
-                self.factor[j * n + j] += delta;
-            }
-            if cholesky::factor(&mut self.factor, n) {
-                if delta > 0.0 {
-                    header.regularisation = delta;
-                }
-                return true;
-            }
-            delta = match (delta, header.regularisation) {
-                (0.0, 0.0) => FIRST,
-                (0.0, last) => (last * DECREASE).max(SMALLEST),
-                (now, _) => now * INCREASE,
-            };
-            if delta > LARGEST {
-                return false;
-            }
+    fn factorise(&mut self, n: usize, delta: f64) -> bool {
+        self.factor.clear();
+        self.factor.extend_from_slice(&self.matrix);
+        for j in 0..n {
+            self.factor[j * n + j] += delta;
         }
+        cholesky::factor(&mut self.factor, n)
     }
 
-    fn solve(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+    /// `false`: the step reaches too far.
+    fn solve(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) -> bool {
         let n = frame.n;
         self.w.clear();
         self.w.extend(self.slope[..n].iter().map(|slope| -slope));
@@ -125,12 +119,16 @@ impl Newton {
             self.w[j] = 0.0;
         }
         cholesky::solve(&self.factor, &mut self.w);
+        if (0..n).any(|j| self.w[j].abs() > frame.reach(j, piece.w[j])) {
+            return false;
+        }
         self.y.clear();
         for (i, row) in frame.jacobian.chunks_exact(n.max(1)).enumerate() {
             let step = row.iter().zip(&self.w).map(|(slope, dx)| slope * dx).sum::<f64>() + residual(i);
             self.y.push(self.sigma[n + i] * step + self.slope[n + i]);
             self.w.push(step);
         }
+        true
     }
 
     fn multiplier_steps(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {

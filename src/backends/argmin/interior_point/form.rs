@@ -5,6 +5,7 @@
 //! two, so that bounds survive the way there and back bit for bit.
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use super::scaling;
 use crate::model::{EvaluationError, Model, Pattern};
@@ -51,8 +52,8 @@ pub(super) struct Form<'a> {
     /// By how much the limits of inequality rows are eased, relative: gives an interior to rows that have none.
     pub ease: f64,
     /// Columns below the number of free variables; slacks are not in it.
-    pub jacobian: Pattern,
-    pub hessian: Pattern,
+    pub jacobian: Arc<Pattern>,
+    pub hessian: Arc<Pattern>,
     jacobian_entries: Vec<Entry>,
     hessian_entries: Vec<Entry>,
     x: Vec<f64>,
@@ -93,8 +94,8 @@ impl<'a> Form<'a> {
             rows,
             slack,
             variable_scale,
-            jacobian,
-            hessian,
+            jacobian: Arc::new(jacobian),
+            hessian: Arc::new(hessian),
             jacobian_entries,
             hessian_entries,
             x,

@@ -36,14 +36,14 @@ mod watchdog;
 use argmin::argmin_error;
 use argmin::core::{Error, KV, Problem, Solver};
 
-use super::state::{Conclusion, NlpState, Point};
+use super::state::{Conclusion, NlpState, Point, given};
 use crate::backends::Termination;
 use crate::model::Evaluator;
 use attempts::Attempts;
 use begin::Beginning;
 use engine::{Ending, Engine};
 use form::Source;
-pub(super) use start::towards_middle;
+pub(super) use start::{pushed, towards_middle};
 
 /// A primal-dual interior point with a filter line search.
 pub(super) struct InteriorPoint<'a> {
@@ -127,10 +127,6 @@ pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point>
     };
     let (_, point) = engine.conclude(&ending);
     matches!(ending, Ending::Optimal | Ending::Acceptable).then_some(point)
-}
-
-fn given<'a>(problem: &Problem<&'a Evaluator<'a>>) -> Result<&'a Evaluator<'a>, Error> {
-    problem.problem.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }
 
 impl Engine<'_> {

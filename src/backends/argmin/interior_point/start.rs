@@ -18,8 +18,8 @@ const TOWARDS_MIDDLE: [f64; 7] = [1e-6, 1e-3, 1e-2, 0.1, 0.25, 0.5, 1.0];
 pub(super) const COLD_PUSH: f64 = 1e-2;
 pub(super) const WARM_PUSH: f64 = 1e-8;
 
-/// Moves a value inside its bounds by at least this push.
-fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
+/// Moves a value inside its bounds by at least this push, less where two bounds are close.
+pub(in crate::backends::argmin) fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
     let room = |bound: f64| (push * bound.abs().max(1.0)).min(push * (upper - lower));
     match (lower.is_finite(), upper.is_finite()) {
         (true, true) => value.max(lower + room(lower)).min(upper - room(upper)),

@@ -6,9 +6,15 @@
 //! ```
 //! Inertia (n, m, 0) makes dx a descent direction: Wächter & Biegler (2006), §3.1, Algorithm IC.
 
+mod condensed;
+mod full;
+mod system;
+
 use super::form::Form;
-use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
-use crate::model::Pattern;
+use crate::linear_algebra::{FactorizationError, Inertia};
+use condensed::Condensed;
+use full::Full;
+use system::System;
 
 /// Bounds and factors of δ_w: Algorithm IC's δ̄_min, δ̄_0, δ̄_max, κ⁻, κ⁺, κ̄⁺ and δ̄_c.
 const SMALLEST: f64 = 1e-20;
@@ -23,11 +29,8 @@ const BISECTIONS: usize = 8;
 
 /// Matrix, factors and the memory of earlier corrections.
 pub(super) struct Kkt {
-    solver: SymmetricSolver,
-    values: Vec<f64>,
-    hessian_places: Vec<usize>,
-    jacobian_places: Vec<usize>,
-    diagonal_places: Vec<usize>,
+    system: System,
+    factors: Factors,
     /// Slack of each row.
     slack: Vec<Option<usize>>,
     variables: usize,
@@ -40,6 +43,12 @@ pub(super) struct Kkt {
     pub dependent: bool,
     right: Vec<f64>,
     solution: Vec<f64>,
+}
+
+/// How the matrix is factorised.
+enum Factors {
+    Full(Box<Full>),
+    Condensed(Box<Condensed>),
 }
 
 /// The values a KKT matrix is made of.
@@ -62,68 +71,57 @@ pub(super) struct Sides<'s> {
 impl Kkt {
     /// Analyses the pattern.
     pub fn new(form: &Form<'_>) -> Result<Self, FactorizationError> {
-        let (n, m) = (form.variables(), form.rows.len());
-        let mut pattern = Pattern::default();
-        let (mut hessian_places, mut jacobian_places, mut diagonal_places) = (Vec::new(), Vec::new(), Vec::new());
-        for row in 0..n {
-            for &column in form.hessian.row(row).iter().filter(|&&column| (column as usize) < row) {
-                hessian_places.push(pattern.columns.len());
-                pattern.columns.push(column);
-            }
-            if form.hessian.row(row).last() == Some(&(row as u32)) {
-                hessian_places.push(pattern.columns.len());
-            }
-            diagonal_places.push(pattern.columns.len());
-            pattern.columns.push(row as u32);
-            pattern.offsets.push(pattern.columns.len());
-        }
-        for row in 0..m {
-            for &column in form.jacobian.row(row) {
-                jacobian_places.push(pattern.columns.len());
-                pattern.columns.push(column);
-            }
-            diagonal_places.push(pattern.columns.len());
-            pattern.columns.push((n + row) as u32);
-            pattern.offsets.push(pattern.columns.len());
-        }
+        let system = System::new(form);
+        let factors = match Condensed::new(&system, &form.slack) {
+            Some(condensed) => Factors::Condensed(Box::new(condensed)),
+            None => Factors::Full(Box::new(Full::new(&system)?)),
+        };
+        let (rows, order) = (form.rows.len(), system.order());
         Ok(Kkt {
-            solver: SymmetricSolver::new(&pattern.offsets, &pattern.columns)?,
-            values: vec![0.0; pattern.len()],
-            hessian_places,
-            jacobian_places,
-            diagonal_places,
+            system,
+            factors,
             slack: form.slack.clone(),
-            variables: n,
-            slack_diagonal: vec![0.0; m],
+            variables: form.variables(),
+            slack_diagonal: vec![0.0; rows],
             last_correction: 0.0,
             correction: 0.0,
             dependent: false,
-            right: vec![0.0; n + m],
-            solution: vec![0.0; n + m],
+            right: vec![0.0; order],
+            solution: vec![0.0; order],
         })
     }
 
     /// Factorises with the corrections δ_w and δ_c.
     pub fn factor(&mut self, blocks: Blocks<'_>, primal: f64, dual: f64) -> Result<Inertia, FactorizationError> {
-        self.values.fill(0.0);
-        for (&place, value) in self.hessian_places.iter().zip(blocks.hessian) {
-            self.values[place] += value;
+        let system = &mut self.system;
+        system.hessian_values.copy_from_slice(blocks.hessian);
+        system.jacobian_values.copy_from_slice(blocks.jacobian);
+        for (value, sigma) in system.primal.iter_mut().zip(blocks.sigma) {
+            *value = sigma + primal;
         }
-        for (&place, value) in self.jacobian_places.iter().zip(blocks.jacobian) {
-            self.values[place] = *value;
-        }
-        for (j, &place) in self.diagonal_places[..self.variables].iter().enumerate() {
-            self.values[place] += blocks.sigma[j] + primal;
-        }
-        for (i, &place) in self.diagonal_places[self.variables..].iter().enumerate() {
-            self.values[place] = -dual;
+        for (i, value) in system.dual.iter_mut().enumerate() {
+            *value = dual;
             if let Some(slack) = self.slack[i] {
                 self.slack_diagonal[i] = blocks.sigma[slack] + primal;
-                self.values[place] -= 1.0 / self.slack_diagonal[i];
+                *value += 1.0 / self.slack_diagonal[i];
             }
         }
         self.correction = primal;
-        self.solver.factor(&self.values)
+        match &mut self.factors {
+            Factors::Full(full) => full.factor(system),
+            Factors::Condensed(condensed) => match condensed.factor(system) {
+                Ok(inertia) => Ok(inertia),
+                Err(_) => self.factor_in_full(),
+            },
+        }
+    }
+
+    /// Gives the condensed form up.
+    fn factor_in_full(&mut self) -> Result<Inertia, FactorizationError> {
+        let mut full = Full::new(&self.system)?;
+        let inertia = full.factor(&self.system);
+        self.factors = Factors::Full(Box::new(full));
+        inertia
     }
 
     /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
@@ -184,7 +182,7 @@ impl Kkt {
             let from_slack = slack.map_or(0.0, |slack| right.w[slack] / self.slack_diagonal[i]);
             self.right[n + i] = right.rows[i] + from_slack;
         }
-        self.solver.solve(&self.right, &mut self.solution)?;
+        self.solve_whole()?;
         w_step[..n].copy_from_slice(&self.solution[..n]);
         y_step.copy_from_slice(&self.solution[n..]);
         for (i, slack) in self.slack.iter().enumerate() {
@@ -196,5 +194,19 @@ impl Kkt {
             return Err(FactorizationError::Singular);
         }
         Ok(())
+    }
+
+    /// solution = K⁻¹·right
+    fn solve_whole(&mut self) -> Result<(), FactorizationError> {
+        if let Factors::Condensed(condensed) = &mut self.factors {
+            if condensed.solve(&self.system, &self.right, &mut self.solution).is_some() {
+                return Ok(());
+            }
+            self.factor_in_full()?;
+        }
+        match &self.factors {
+            Factors::Full(full) => full.solve(&self.right, &mut self.solution),
+            Factors::Condensed(_) => Err(FactorizationError::Singular),
+        }
     }
 }
