@@ -12,9 +12,11 @@ const FEWEST_VARIABLES: usize = 100;
 /// Parts solved between two lines of the log; a fixed number, so that nothing depends on the number of threads.
 const BATCH: usize = 16;
 
-/// The joined answers of all parts; `None` where the model is small or does not fall apart.
+/// The joined answers of all parts; `None` where the model is small, has bounds only, or does not fall apart.
 pub(super) fn solve(model: &dyn Model, job: &mut Job<'_>) -> Option<Solution> {
-    if job.algorithm != "auto" || model.meta().variables() < FEWEST_VARIABLES {
+    let meta = model.meta();
+    // What takes bounds only grows with the size itself.
+    if job.algorithm != "auto" || meta.rows() == 0 || meta.variables() < FEWEST_VARIABLES {
         return None;
     }
     let pieces = model.components().filter(|pieces| pieces.partition().len() > 1)?;
