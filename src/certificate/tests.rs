@@ -175,7 +175,7 @@ fn flat_to_second_order_a_point_passes_only_where_nothing_falls_beyond() {
 #[test]
 fn rows_that_contradict_one_another_are_not_met_by_going_far_away() {
     let parallel = Sample::new(&[0.0, 0.0], |x| x[0]).row(1.0, 1.0, |x| x[0] + x[1]).row(1.000_001, 1.000_001, |x| x[0] + x[1]);
-    let point = judge(&parallel, &[-4.6e9, 4.6e9 + 1.0]);
+    let point = judge(&parallel, &[-1e5, 1e5 + 1.0]);
     assert!(point.met_only_far_away && point.primal_infeasibility > 1e-8);
     // Rounding of far values is no contradiction.
     let far = Sample::new(&[0.0, 0.0], |x| (x[0] - 4.6e9).powi(2)).row(1.0, 1.0, |x| x[0] - x[1]);
@@ -189,7 +189,8 @@ fn rows_that_contradict_one_another_are_not_met_by_going_far_away() {
 fn what_rounding_leaves_of_a_zero_makes_no_slope_vanish() {
     let model = Sample::new(&[0.0, 1.0], |x| x[0] + (x[1] - 3.0).powi(2));
     for rounding in [0.0, 1e-17, -1e-12] {
-        assert!(judge(&model, &[rounding, 3.0]).dual_infeasibility > 0.1, "{rounding}");
+        // The slope 1 over σ = 12.
+        assert!(judge(&model, &[rounding, 3.0]).dual_infeasibility > 0.08, "{rounding}");
     }
     assert!(judge(&model.bound(0, 0.0, INF), &[1e-17, 3.0]).certified);
 }

@@ -11,7 +11,7 @@ use crate::model::{EvaluationError, Evaluator, Meta, Model};
 /// Runs inside a box about the best point, after a model gave no number further out.
 const GUARDED_RUNS: u32 = 40;
 /// Evaluations after which a plan that has proved nothing is given up, in all and for each variable.
-const EFFORT: u64 = 200_000;
+const EFFORT: u64 = 60_000;
 const EFFORT_EACH: u64 = 2_000;
 
 /// What a plan came to.
