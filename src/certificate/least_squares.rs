@@ -50,6 +50,8 @@ struct Pivoting<'a> {
     columns: &'a [Column],
     matrix: Symmetric,
     basic: Vec<bool>,
+    /// Whether the factors are those of `basic`.
+    is_factored: bool,
 }
 
 impl<'a> Pivoting<'a> {
@@ -61,7 +63,7 @@ impl<'a> Pivoting<'a> {
         }
         let matrix = build(g.len() + columns.len(), &positions)?;
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Ok(Pivoting { g, columns, matrix, basic })
+        Ok(Pivoting { g, columns, matrix, basic, is_factored: false })
     }
 
     /// The minimiser with the proximal term around `centre`.
@@ -81,6 +83,7 @@ impl<'a> Pivoting<'a> {
             for &k in swapped {
                 self.basic[k] = !self.basic[k];
             }
+            self.is_factored = false;
             y = self.stationary(centre)?;
         }
         for (y, column) in y.iter_mut().zip(self.columns) {
@@ -93,16 +96,24 @@ impl<'a> Pivoting<'a> {
 
     /// The stationary point over the basic columns, from [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre].
     fn stationary(&mut self, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
-        let (p, basic, columns) = (self.g.len(), &self.basic, self.columns);
-        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
-        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
-        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
-        let entries = std::iter::repeat_n(1.0, p).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
-        self.matrix.factor(entries)?;
+        if !self.is_factored {
+            self.factor()?;
+            self.is_factored = true;
+        }
+        let (p, columns) = (self.g.len(), self.columns);
         let pull = |k: usize| if self.basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
         let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..columns.len()).map(pull)).collect();
         let mut solution = self.matrix.solve(&right)?;
         Ok(solution.split_off(p))
+    }
+
+    fn factor(&mut self) -> Result<(), FactorizationError> {
+        let (basic, columns) = (&self.basic, self.columns);
+        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
+        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
+        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
+        let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
+        self.matrix.factor(entries).map(|_| ())
     }
 
     /// Columns on the wrong side: basic with the wrong sign, or at zero although moving would help.

@@ -2,6 +2,7 @@
 
 use crate::linear_algebra::blocks::BlockSolver;
 use crate::linear_algebra::bunch_kaufman::{self, Pivot};
+use crate::linear_algebra::congruence::CongruentSolver;
 use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
 use crate::model::Pattern;
 
@@ -15,26 +16,49 @@ pub(super) struct Symmetric {
 /// Matrices of this order and less are dense where they are many.
 const SMALL: usize = 48;
 
+/// From this order on a basis is looked for in which second derivatives are sparser.
+const LARGE: usize = 2000;
+
 /// Many small blocks by themselves, anything else as a whole.
 enum Solver {
     Dense { factors: Vec<f64>, pivots: Vec<Pivot> },
     Blocks(BlockSolver),
     Sparse(SymmetricSolver),
+    Congruent(CongruentSolver),
 }
 
 impl Symmetric {
     /// A matrix of this order with entries at these positions (either triangle, repeats are added up).
     pub(super) fn new(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+        let sparse = |pattern: Pattern| SymmetricSolver::new(&pattern.offsets, &pattern.columns).map(Solver::Sparse);
+        Symmetric::build(order, positions, sparse)
+    }
+
+    /// The same for a matrix of second derivatives.
+    pub(super) fn curved(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+        if order < LARGE {
+            return Symmetric::new(order, positions);
+        }
+        let congruent = |pattern: Pattern| CongruentSolver::new(pattern.offsets, pattern.columns).map(Solver::Congruent);
+        Symmetric::build(order, positions, congruent)
+    }
+
+    fn build(
+        order: usize,
+        positions: &[(u32, u32)],
+        solver: impl FnOnce(Pattern) -> Result<Solver, FactorizationError>,
+    ) -> Result<Self, FactorizationError> {
         let lower = |&(i, j): &(u32, u32)| (i.max(j), i.min(j));
         let mut sorted = positions.iter().map(lower).collect();
         let pattern = Pattern::from_positions(order, &mut sorted);
         let place = |(row, column): (u32, u32)| pattern.position(row as usize, column).unwrap_or_default();
         let places = positions.iter().map(lower).map(place).collect();
+        let values = vec![0.0; pattern.len()];
         let solver = match BlockSolver::new(&pattern.offsets, &pattern.columns) {
             Some(blocks) => Solver::Blocks(blocks),
-            None => Solver::Sparse(SymmetricSolver::new(&pattern.offsets, &pattern.columns)?),
+            None => solver(pattern)?,
         };
-        Ok(Symmetric { places, values: vec![0.0; pattern.len()], solver })
+        Ok(Symmetric { places, values, solver })
     }
 
     /// The same for one of very many small matrices: nothing is analysed, all of it is stored.
@@ -64,6 +88,7 @@ impl Symmetric {
             }
             Solver::Blocks(solver) => solver.factor(&self.values),
             Solver::Sparse(solver) => solver.factor(&self.values),
+            Solver::Congruent(solver) => solver.factor(&self.values),
         }
     }
 
@@ -79,6 +104,7 @@ impl Symmetric {
             }
             Solver::Blocks(solver) => solver.solve(right, &mut x),
             Solver::Sparse(solver) => solver.solve(right, &mut x)?,
+            Solver::Congruent(solver) => solver.solve(right, &mut x)?,
         }
         Ok(x)
     }

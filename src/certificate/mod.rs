@@ -12,6 +12,7 @@ mod lower_bound;
 mod matrix;
 mod multipliers;
 mod outward;
+mod pieces;
 mod point;
 mod reach;
 mod runaway;
@@ -54,6 +55,14 @@ impl<'a> Certifier<'a> {
     /// Evaluates the gradient at the model's start, once.
     pub fn new(model: &'a dyn Model, class: Class, tolerances: Tolerances) -> Self {
         Certifier { origin: Origin::new(model), class, tolerances }
+    }
+
+    /// The row multipliers that make `x` as stationary as it allows, without judging it.
+    ///
+    /// # Errors
+    /// The model has no value or derivative at `x`.
+    pub fn row_multipliers(&self, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        Ok(multipliers::find(&Point::new(&self.origin, x)?, None).rows)
     }
 
     /// Whether `x` passes; cheap where it is far from feasible. A stop test for solvers.

@@ -5,7 +5,7 @@ use super::diverging::{Fall, Ray};
 use super::words;
 use super::{Agreement, Answer, Conflict, Outcome, Status};
 use crate::backends::Termination;
-use crate::certificate::{Scope, lower_bound};
+use crate::certificate::{Certifier, Scope, lower_bound};
 
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
@@ -153,12 +153,12 @@ fn bound(referee: &Referee<'_>, outcome: &Outcome) -> Option<f64> {
 /// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.
 fn bound_at(referee: &Referee<'_>, x: &[f64]) -> Option<f64> {
     let task = referee.task;
-    let certify = |model, x: &[f64]| crate::certificate::certify(model, task.class, x, None, referee.tolerances).ok();
     let Some(other) = task.substitution else {
-        return lower_bound(task.model, x, &certify(task.model, x)?.row_multipliers).ok()?;
+        return lower_bound(task.model, x, &referee.judge.row_multipliers(x).ok()?).ok()?;
     };
     let z = other.inward(x);
-    let bound = lower_bound(other.model(), &z, &certify(other.model(), &z)?.row_multipliers).ok()??;
+    let judge = Certifier::new(other.model(), task.class, referee.tolerances);
+    let bound = lower_bound(other.model(), &z, &judge.row_multipliers(&z).ok()?).ok()??;
     let outward = other.outward_objective(bound);
     // The way back is a library function: a few last digits are given away.
     Some(if outward == bound { bound } else { outward - 8.0 * f64::EPSILON * outward.abs() })

@@ -17,7 +17,6 @@ pub struct CongruentSolver {
     offsets: Vec<usize>,
     columns: Vec<u32>,
     basis: Basis,
-    right: Vec<f64>,
 }
 
 enum Basis {
@@ -34,8 +33,7 @@ impl CongruentSolver {
     /// A solver for a lower triangle by rows, as [`SymmetricSolver::new`] takes it.
     pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
         let plain = SymmetricSolver::new(&offsets, &columns)?;
-        let order = plain.order();
-        Ok(CongruentSolver { offsets, columns, basis: Basis::Unknown(plain), right: vec![0.0; order] })
+        Ok(CongruentSolver { offsets, columns, basis: Basis::Unknown(plain) })
     }
 
     /// Factorises the matrix with these values along the pattern.
@@ -74,12 +72,25 @@ impl CongruentSolver {
     }
 
     /// x = A⁻¹·right for the matrix factorised last, refined.
-    pub fn solve(&mut self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+    pub fn solve(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+        self.solve_by(right, x, SymmetricSolver::solve)
+    }
+
+    /// The same without refinement, for callers who refine themselves.
+    pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+        self.solve_by(right, x, SymmetricSolver::solve_once)
+    }
+
+    fn solve_by(
+        &self,
+        right: &[f64],
+        x: &mut [f64],
+        solve: impl Fn(&SymmetricSolver, &[f64], &mut [f64]) -> Result<(), FactorizationError>,
+    ) -> Result<(), FactorizationError> {
         match &self.basis {
-            Basis::Unknown(solver) | Basis::Plain(solver) => solver.solve(right, x),
+            Basis::Unknown(solver) | Basis::Plain(solver) => solve(solver, right, x),
             Basis::Changed { transformed, solver } => {
-                transformed.inward(right, &mut self.right);
-                solver.solve(&self.right, x)?;
+                solve(solver, &transformed.inward(right), x)?;
                 transformed.outward(x);
                 Ok(())
             }

@@ -138,6 +138,16 @@ impl SymmetricSolver {
                 .map_err(|error| FactorizationError::Library(error.to_string())),
         }
     }
+
+    /// x = A⁻¹·right without refinement, for callers who refine themselves.
+    pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+        match &self.method {
+            Method::Sparse(solver) if self.order() > 0 => {
+                solver.solve_into(right, x).map_err(|error| FactorizationError::Library(error.to_string()))
+            }
+            _ => self.solve(right, x),
+        }
+    }
 }
 
 fn factor_sparse(solver: &mut Solver, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {

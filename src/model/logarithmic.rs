@@ -1,6 +1,6 @@
 //! A model in the logarithms of its variables, y = ln x: posynomials become convex, monomial rows affine.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{EvaluationError, Meta, Model, Pattern, Substitution};
 
@@ -17,6 +17,17 @@ pub struct Logarithmic {
     /// Where the model's Hessian positions stand in this one's pattern, and where the diagonal does.
     slots: Vec<u32>,
     diagonal: Vec<u32>,
+    /// First derivatives where they were asked for last: second ones are nearly always wanted at the same point.
+    latest: Mutex<Latest>,
+}
+
+/// First derivatives in x, and the points y where they were taken.
+#[derive(Default)]
+struct Latest {
+    gradient_at: Vec<f64>,
+    gradient: Vec<f64>,
+    jacobian_at: Vec<f64>,
+    jacobian: Vec<f64>,
 }
 
 impl Logarithmic {
@@ -45,11 +56,38 @@ impl Logarithmic {
             jacobian: user.jacobian.clone(),
             hessian,
         };
-        Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal })
+        let latest = Mutex::default();
+        Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal, latest })
     }
 
     fn x(&self, y: &[f64]) -> Vec<f64> {
         y.iter().map(|y| y.exp()).collect()
+    }
+
+    fn latest(&self) -> std::sync::MutexGuard<'_, Latest> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// weight·∇f + Jᵀ·multipliers in x.
+    fn lagrangian_gradient(&self, y: &[f64], x: &[f64], weight: f64, multipliers: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let latest = self.latest();
+        let mut gradient = vec![0.0; x.len()];
+        if weight != 0.0 {
+            if latest.gradient_at == y {
+                gradient.copy_from_slice(&latest.gradient);
+            } else {
+                self.model.gradient(x, &mut gradient)?;
+            }
+            gradient.iter_mut().for_each(|g| *g *= weight);
+        }
+        if latest.jacobian_at == y {
+            self.meta.jacobian.add_transposed(&latest.jacobian, multipliers, &mut gradient);
+        } else {
+            let mut jacobian = vec![0.0; self.meta.jacobian.len()];
+            self.model.jacobian(x, &mut jacobian)?;
+            self.meta.jacobian.add_transposed(&jacobian, multipliers, &mut gradient);
+        }
+        Ok(gradient)
     }
 }
 
@@ -138,6 +176,11 @@ impl Model for Logarithmic {
     fn gradient(&self, y: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
         let x = self.x(y);
         let value = self.model.gradient(&x, gradient)?;
+        let mut latest = self.latest();
+        latest.gradient_at.clear();
+        latest.gradient_at.extend_from_slice(y);
+        latest.gradient.clear();
+        latest.gradient.extend_from_slice(gradient);
         gradient.iter_mut().zip(&x).for_each(|(g, x)| *g *= x);
         Ok(value)
     }
@@ -155,6 +198,11 @@ impl Model for Logarithmic {
     fn jacobian(&self, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         let x = self.x(y);
         self.model.jacobian(&x, values)?;
+        let mut latest = self.latest();
+        latest.jacobian_at.clear();
+        latest.jacobian_at.extend_from_slice(y);
+        latest.jacobian.clear();
+        latest.jacobian.extend_from_slice(values);
         let pattern = &self.meta.jacobian;
         for (row, &monomial) in self.monomial.iter().enumerate() {
             for at in pattern.range(row) {
@@ -175,14 +223,7 @@ impl Model for Logarithmic {
         for (((i, j), &slot), value) in pattern.iter().zip(&self.slots).zip(inner) {
             values[slot as usize] = value * x[i] * x[j];
         }
-        let mut gradient = vec![0.0; x.len()];
-        if weight != 0.0 {
-            self.model.gradient(&x, &mut gradient)?;
-            gradient.iter_mut().for_each(|g| *g *= weight);
-        }
-        let mut jacobian = vec![0.0; self.meta.jacobian.len()];
-        self.model.jacobian(&x, &mut jacobian)?;
-        self.meta.jacobian.add_transposed(&jacobian, &multipliers, &mut gradient);
+        let gradient = self.lagrangian_gradient(y, &x, weight, &multipliers)?;
         for (j, &slot) in self.diagonal.iter().enumerate() {
             values[slot as usize] += x[j] * gradient[j];
         }

@@ -4,9 +4,9 @@
 const LONGEST: usize = 100;
 /// Entries that differ by less than this, relative, are the same.
 pub(super) const SAME: f64 = 1e-10;
-/// Proportional entries a pair needs at the least, and by how many times they outnumber the others.
+/// Proportional entries a pair needs at the least, and how many times as many as others.
 const LEAST: usize = 3;
-const MAJORITY: usize = 2;
+const MAJORITY: usize = 1;
 /// Entries whose ratio is tried as that of all.
 const TRIED: usize = 2;
 /// Ratios beyond this, or below its inverse, would spoil the numbers.

@@ -77,13 +77,14 @@ impl Transformed {
     }
 
     /// Tᵀ·right
-    pub fn inward(&self, right: &[f64], transformed: &mut [f64]) {
-        transformed.copy_from_slice(right);
+    pub fn inward(&self, right: &[f64]) -> Vec<f64> {
+        let mut transformed = right.to_vec();
         for (i, partner) in self.partners.iter().enumerate() {
             if let Some(Partner { place, ratio }) = *partner {
                 transformed[i] -= ratio * right[place as usize];
             }
         }
+        transformed
     }
 
     /// x = T·x

@@ -5,8 +5,12 @@ use super::filter::Filter;
 use super::form::{Form, Source};
 use super::iterate::Errors;
 use super::kkt::Kkt;
+use super::polish;
 use super::start;
 use crate::model::EvaluationError;
+
+/// Number of variables from which on a problem counts as large.
+const LARGE: usize = 1000;
 
 /// How to begin.
 #[derive(Clone, Copy)]
@@ -40,11 +44,14 @@ impl<'a> Engine<'a> {
         form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
         let mu = beginning.mu.unwrap_or(if warm { WARM_BARRIER } else { FIRST_BARRIER });
-        let mut iterate = start::place(&mut form, beginning.x, push)?;
+        let slack_push = if form.variables() >= LARGE && !warm { start::LARGE_PUSH } else { push };
+        let mut iterate = start::place(&mut form, beginning.x, push, slack_push)?;
         let mut kkt =
             Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
         match beginning.multipliers {
             Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
+            // With slacks that begin well inside, zero is as good a guess as least squares, and free.
+            None if form.variables() >= LARGE => start::unit_bound_multipliers(&form, &mut iterate),
             None => {
                 start::unit_bound_multipliers(&form, &mut iterate);
                 start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
@@ -75,6 +82,7 @@ impl<'a> Engine<'a> {
             shortened_steps: 0,
             tiny_steps: 0,
             iterations: 0,
+            polish_at: if form.variables() >= LARGE { polish::FIRST_TRIAL } else { 0.0 },
             form,
         };
         engine.filter.reset(engine.largest_violation);

@@ -89,6 +89,8 @@ pub(super) struct Engine<'a> {
     pub shortened_steps: usize,
     pub tiny_steps: usize,
     pub iterations: u64,
+    /// The optimality error at which a large problem is polished next, on trial.
+    pub polish_at: f64,
 }
 
 /// The iterate with the least optimality error.
@@ -113,6 +115,7 @@ impl Engine<'_> {
         match self.ending() {
             Some(Ending::Optimal | Ending::Acceptable) if self.leave_saddle()? => {}
             Some(ending) => return Ok(Some(ending)),
+            None if self.polished_early()? => return Ok(None),
             None => {}
         }
         if self.watchdog.is_none() {

@@ -1,17 +1,24 @@
 //! The last digits: Newton's method on the active set the barrier has found. Active bounds and rows then hold to
 //! rounding, where the barrier leaves them off by μ. Nothing is taken that is not nearer to optimal.
 
-use super::engine::Engine;
+use super::engine::{Engine, TOLERANCE};
 use super::form::Form;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
 use super::vectors::norm_max;
 use crate::model::EvaluationError;
 
-/// Newton steps at the most.
+/// Newton steps at the most; on trial.
 const MOST_STEPS: usize = 10;
-/// Σ of a variable held at its bound; its inverse for a row that is left out.
-const HELD: f64 = 1e30;
+const TRIAL_STEPS: usize = 4;
+/// Optimality errors below this are rounding.
+const ROUNDING: f64 = 1e-14;
+/// At which optimality error a large problem is polished on trial first, and by which factor lower each time again: where a few
+/// Newton steps succeed they save the barrier's last iterations.
+pub(super) const FIRST_TRIAL: f64 = 1e-7;
+const NEXT_TRIAL: f64 = 1e-2;
+/// 1/Σ of the slack of a row that is left out.
+const LEFT_OUT: f64 = 1e30;
 /// Regularisation where active rows are dependent or the reduced Hessian is singular.
 const REGULARISATION: f64 = 1e-9;
 /// Larger multipliers look like those of dependent rows.
@@ -40,6 +47,9 @@ impl Engine<'_> {
     /// Replaces the iterate by a polished one where that lowers the optimality error.
     pub(super) fn polish(&mut self) -> Result<(), EvaluationError> {
         self.assess();
+        if self.errors.largest() <= ROUNDING {
+            return Ok(());
+        }
         for doubt in [Doubt::Compare, Doubt::Hold] {
             let sides = active_set(&self.form, &self.iterate, doubt);
             let polished = match self.newton_on(&sides) {
@@ -54,6 +64,44 @@ impl Engine<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Polishes a large problem on trial, the active set being revised from step to step. `true`: the iterate is optimal.
+    pub(super) fn polished_early(&mut self) -> Result<bool, EvaluationError> {
+        if self.errors.largest() > self.polish_at {
+            return Ok(false);
+        }
+        self.polish_at = NEXT_TRIAL * self.errors.largest();
+        self.kkt.patient = false;
+        let polished = self.newton_on_trial();
+        self.kkt.patient = true;
+        match polished {
+            Ok(Some(polished)) => {
+                self.iterate = polished;
+                self.assess();
+                Ok(true)
+            }
+            Ok(None) | Err(EvaluationError::Invalid { .. }) => Ok(false),
+            Err(stopped) => Err(stopped),
+        }
+    }
+
+    /// A few Newton steps on active sets that follow from one another; the point, if it is optimal.
+    fn newton_on_trial(&mut self) -> Result<Option<Iterate>, EvaluationError> {
+        let mut sides = active_set(&self.form, &self.iterate, Doubt::Compare);
+        let mut point = self.iterate.clone();
+        for _ in 0..TRIAL_STEPS {
+            hold(&self.form, &sides, &mut point);
+            point.evaluate(&mut self.form)?;
+            if !self.active_set_step(&sides, &mut point)? {
+                return Ok(None);
+            }
+            if settle(&self.form, &sides, &mut point, &mut self.right) <= TOLERANCE {
+                return Ok(Some(point));
+            }
+            revise(&self.form, &mut sides, &point, &mut self.right);
+        }
+        Ok(None)
     }
 
     /// Newton steps on the active set; the best point, if it is better than the iterate.
@@ -89,7 +137,7 @@ impl Engine<'_> {
         let mut point = best.clone();
         point.y.fill(0.0);
         point.lagrangian_gradient(form, right);
-        restrict(sides, n, 1.0, right, sigma);
+        restrict(sides, n, (kkt.rigid(), 1.0), right, sigma);
         hessian.fill(0.0);
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
         let zeros = vec![0.0; form.rows.len()];
@@ -110,7 +158,7 @@ impl Engine<'_> {
         let n = form.variables();
         form.hessian(&point.w, &point.y, hessian)?;
         point.lagrangian_gradient(form, right);
-        restrict(sides, n, 0.0, right, sigma);
+        restrict(sides, n, (kkt.rigid(), 0.0), right, sigma);
         let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
         let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
@@ -149,17 +197,31 @@ fn active_set(form: &Form<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<Side> {
         .collect()
 }
 
+/// Lets go what is held with a multiplier of the wrong sign, and holds what has run into a bound.
+fn revise(form: &Form<'_>, sides: &mut [Side], point: &Iterate, scratch: &mut [f64]) {
+    point.lagrangian_gradient(form, scratch);
+    for (j, side) in sides.iter_mut().enumerate() {
+        *side = match *side {
+            Side::Lower if scratch[j] < 0.0 => Side::Free,
+            Side::Upper if scratch[j] > 0.0 => Side::Free,
+            Side::Free if point.w[j] <= form.lower[j] => Side::Lower,
+            Side::Free if point.w[j] >= form.upper[j] => Side::Upper,
+            same => same,
+        };
+    }
+}
+
 /// Turns a gradient into the right-hand side of the free variables, and Σ into what holds the others: a held variable
-/// stays, a held slack makes its row an equality, a free one takes its row out. Free variables get Σ = `free`.
-fn restrict(sides: &[Side], variables: usize, free: f64, right: &mut [f64], sigma: &mut [f64]) {
+/// stays, a held slack makes its row an equality, a free one takes its row out. Variables get Σ = `rigid` or `free`.
+fn restrict(sides: &[Side], variables: usize, (rigid, free): (f64, f64), right: &mut [f64], sigma: &mut [f64]) {
     for (j, side) in sides.iter().enumerate() {
         let held = *side != Side::Free;
         right[j] = if held || j >= variables { 0.0 } else { -right[j] };
         sigma[j] = match (held, j < variables) {
-            (true, true) => HELD,
+            (true, true) => rigid,
             (false, true) => free,
             (true, false) => f64::INFINITY,
-            (false, false) => 1.0 / HELD,
+            (false, false) => 1.0 / LEFT_OUT,
         };
     }
 }

@@ -17,6 +17,9 @@ const TOWARDS_MIDDLE: [f64; 7] = [1e-6, 1e-3, 1e-2, 0.1, 0.25, 0.5, 1.0];
 /// How far inside its bounds the start is pushed: κ₁ (absolute) and κ₂ (share of the distance between two bounds).
 pub(super) const COLD_PUSH: f64 = 1e-2;
 pub(super) const WARM_PUSH: f64 = 1e-8;
+/// κ₁ and κ₂ of the slacks of large problems: among thousands of rows some slack always stops a step short, unless all of them
+/// begin well inside.
+pub(super) const LARGE_PUSH: f64 = 1.0;
 
 /// Moves a value inside its bounds by at least this push, less where two bounds are close.
 pub(in crate::backends::argmin) fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
@@ -30,7 +33,7 @@ pub(in crate::backends::argmin) fn pushed(value: f64, lower: f64, upper: f64, pu
 }
 
 /// Puts the variables at `start` (the model's x) and evaluates; slacks follow, scales are chosen.
-pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64) -> Result<Iterate, EvaluationError> {
+pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
     let mut iterate = Iterate::new(form);
     for (at, &j) in form.free.iter().enumerate() {
         iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
@@ -39,7 +42,7 @@ pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64) -> Result<Ite
     let (objective_scale, row_scale) = scaling::gradient_scales(form, iterate.objective, &iterate.gradient, &iterate.jacobian);
     form.rescale(objective_scale, row_scale);
     iterate.evaluate(form)?;
-    place_slacks(form, &mut iterate, push);
+    place_slacks(form, &mut iterate, slack_push);
     Ok(iterate)
 }
 

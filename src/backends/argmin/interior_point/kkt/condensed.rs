@@ -19,7 +19,7 @@ const STIFFEST: f64 = 1e8;
 const LEAST_CURVATURE: f64 = 1e-10;
 /// Refinement steps at the most, the relative residual at which they end, and the one up to which a solution is any good.
 const MOST_STEPS: usize = 10;
-const ENOUGH: f64 = 1e-13;
+const ENOUGH: f64 = 1e-11;
 const USABLE: f64 = 1e-7;
 
 /// Factors, and where the system's values stand in the matrix.
@@ -156,7 +156,7 @@ impl Condensed {
         for (k, &i) in self.kept.iter().enumerate() {
             self.right[n + k] = right[n + i];
         }
-        self.solver.solve(&self.right, &mut self.step)?;
+        self.solver.solve_once(&self.right, &mut self.step)?;
         x[..n].copy_from_slice(&self.step[..n]);
         for (k, &i) in self.kept.iter().enumerate() {
             x[n + i] = self.step[n + k];

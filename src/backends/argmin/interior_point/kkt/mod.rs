@@ -24,13 +24,23 @@ const DECREASE: f64 = 1.0 / 3.0;
 const INCREASE: f64 = 8.0;
 const FIRST_INCREASE: f64 = 100.0;
 const DUAL_REGULARISATION: f64 = 1e-8;
+/// Failures after which the condensed form is given up.
+const MOST_FAILURES: usize = 3;
 /// Halvings (of the logarithm) towards the least δ_w.
 const BISECTIONS: usize = 8;
 
 /// Matrix, factors and the memory of earlier corrections.
 pub(super) struct Kkt {
     system: System,
-    factors: Factors,
+    /// The condensed form, where it is in use; the whole matrix, where that was needed.
+    condensed: Option<Box<Condensed>>,
+    full: Option<Box<Full>>,
+    /// Whether the whole matrix was factorised last.
+    in_full: bool,
+    /// Times the condensed form failed.
+    failures: usize,
+    /// Whether the whole matrix is factorised where the condensed form fails: a matter of many times the time.
+    pub patient: bool,
     /// Slack of each row.
     slack: Vec<Option<usize>>,
     variables: usize,
@@ -43,12 +53,6 @@ pub(super) struct Kkt {
     pub dependent: bool,
     right: Vec<f64>,
     solution: Vec<f64>,
-}
-
-/// How the matrix is factorised.
-enum Factors {
-    Full(Box<Full>),
-    Condensed(Box<Condensed>),
 }
 
 /// The values a KKT matrix is made of.
@@ -72,14 +76,16 @@ impl Kkt {
     /// Analyses the pattern.
     pub fn new(form: &Form<'_>) -> Result<Self, FactorizationError> {
         let system = System::new(form);
-        let factors = match Condensed::new(&system, &form.slack) {
-            Some(condensed) => Factors::Condensed(Box::new(condensed)),
-            None => Factors::Full(Box::new(Full::new(&system)?)),
-        };
+        let condensed = Condensed::new(&system, &form.slack).map(Box::new);
+        let full = if condensed.is_none() { Some(Box::new(Full::new(&system)?)) } else { None };
         let (rows, order) = (form.rows.len(), system.order());
         Ok(Kkt {
             system,
-            factors,
+            in_full: condensed.is_none(),
+            condensed,
+            full,
+            failures: 0,
+            patient: true,
             slack: form.slack.clone(),
             variables: form.variables(),
             slack_diagonal: vec![0.0; rows],
@@ -89,6 +95,11 @@ impl Kkt {
             right: vec![0.0; order],
             solution: vec![0.0; order],
         })
+    }
+
+    /// The Σ that holds a variable in its place: large, but no larger than the factors can bear.
+    pub fn rigid(&self) -> f64 {
+        if self.condensed.is_some() { 1e12 } else { 1e30 }
     }
 
     /// Factorises with the corrections δ_w and δ_c.
@@ -107,21 +118,33 @@ impl Kkt {
             }
         }
         self.correction = primal;
-        match &mut self.factors {
-            Factors::Full(full) => full.factor(system),
-            Factors::Condensed(condensed) => match condensed.factor(system) {
-                Ok(inertia) => Ok(inertia),
-                Err(_) => self.factor_in_full(),
-            },
+        if let Some(condensed) = &mut self.condensed {
+            self.in_full = false;
+            let inertia = condensed.factor(system);
+            if inertia.is_ok() {
+                return inertia;
+            }
         }
+        self.factor_in_full()
     }
 
-    /// Gives the condensed form up.
+    /// Factorises the whole matrix; gives the condensed form up where that has failed too often.
     fn factor_in_full(&mut self) -> Result<Inertia, FactorizationError> {
-        let mut full = Full::new(&self.system)?;
-        let inertia = full.factor(&self.system);
-        self.factors = Factors::Full(Box::new(full));
-        inertia
+        if self.condensed.is_some() {
+            if !self.patient {
+                return Err(FactorizationError::Singular);
+            }
+            self.failures += 1;
+            if self.failures >= MOST_FAILURES {
+                self.condensed = None;
+            }
+        }
+        self.in_full = true;
+        let full = match &mut self.full {
+            Some(full) => full,
+            None => self.full.insert(Box::new(Full::new(&self.system)?)),
+        };
+        full.factor(&self.system)
     }
 
     /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
@@ -198,15 +221,12 @@ impl Kkt {
 
     /// solution = K⁻¹·right
     fn solve_whole(&mut self) -> Result<(), FactorizationError> {
-        if let Factors::Condensed(condensed) = &mut self.factors {
+        if let Some(condensed) = self.condensed.as_mut().filter(|_| !self.in_full) {
             if condensed.solve(&self.system, &self.right, &mut self.solution).is_some() {
                 return Ok(());
             }
             self.factor_in_full()?;
         }
-        match &self.factors {
-            Factors::Full(full) => full.solve(&self.right, &mut self.solution),
-            Factors::Condensed(_) => Err(FactorizationError::Singular),
-        }
+        self.full.as_ref().ok_or(FactorizationError::Singular)?.solve(&self.right, &mut self.solution)
     }
 }
