@@ -67,7 +67,7 @@ fn measured(bencher: Bencher, ribs: usize, kind: Kind, evaluate: impl Fn(&dyn Mo
 /// both on all cores, least time of many, bytes that are stored and read by the algorithm (nothing for write-allocation).
 fn bandwidth() {
     const MILLION: usize = 1_000_000;
-    let triad = triad(1 << 24);
+    let triad = triad(1 << 22);
     let (_folder, path) = support::row_of_ribs(MILLION, support::RECTANGLE);
     let subject = support::read(path);
     let (model, meta) = (subject.model(), subject.model().meta());
@@ -114,5 +114,5 @@ fn least(mut work: impl FnMut()) -> f64 {
         work();
         begun.elapsed().as_secs_f64()
     };
-    (0..30).map(once).fold(f64::INFINITY, f64::min)
+    (0..200).map(once).fold(f64::INFINITY, f64::min)
 }

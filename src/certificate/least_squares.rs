@@ -25,7 +25,12 @@ pub(super) struct Column {
 
 /// The minimiser y.
 pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
-    repeated(g, columns, Symmetric::one_of_many).or_else(|_| repeated(g, columns, Symmetric::new))
+    repeated(g, columns, Symmetric::new)
+}
+
+/// The same for one of very many small systems.
+pub(super) fn solve_one_of_many(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
+    repeated(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
 }
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;

@@ -82,12 +82,12 @@ impl Group<'_> {
     fn row_multipliers(&self, many: bool) -> Vec<(usize, f64)> {
         if many {
             let small = self.system(true);
-            let found = self.solved(&small);
+            let found = self.solved(&small, many);
             if small.absorbing.is_empty() || self.bounds_push_back(&small, &found) {
                 return found;
             }
         }
-        self.solved(&self.system(false))
+        self.solved(&self.system(false), many)
     }
 
     /// The group's rows, and the bounds of the variables they touch; other variables need no solving. A variable exactly on
@@ -147,11 +147,12 @@ impl Group<'_> {
         Column { entries, sign: candidate.sign, weight, basic }
     }
 
-    fn solved(&self, system: &System) -> Vec<(usize, f64)> {
+    fn solved(&self, system: &System, many: bool) -> Vec<(usize, f64)> {
+        let solve = if many { least_squares::solve_one_of_many } else { least_squares::solve };
         if system.columns.is_empty() {
             return Vec::new();
         }
-        let scaled = least_squares::solve(&system.gradient, &system.columns).unwrap_or_default();
+        let scaled = solve(&system.gradient, &system.columns).unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {
             Owner::Row(i) => Some((i, value * self.point.sigma / self.point.slopes[i])),
             Owner::Bound(_) => None,

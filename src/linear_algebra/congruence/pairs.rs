@@ -76,9 +76,8 @@ impl Columns {
         let mut starts = vec![0; order + 1];
         let each = |visit: &mut dyn FnMut(usize, usize, usize)| {
             for row in 0..order {
-                for at in offsets[row]..offsets[row + 1] {
-                    visit(row, columns[at] as usize, at);
-                }
+                let own = offsets[row]..offsets[row + 1];
+                own.clone().zip(&columns[own]).for_each(|(at, &column)| visit(row, column as usize, at));
             }
         };
         each(&mut |row, column, _| {

@@ -119,7 +119,7 @@ impl Condensed {
             system.residual(right, solution, &mut residual);
             let left = norm_max(&residual);
             // A step that makes it worse (or a NaN) is taken back.
-            if !(left < least) {
+            if left.is_nan() || left >= least {
                 solution.iter_mut().zip(&correction).for_each(|(x, step)| *x -= step);
                 break;
             }
