@@ -32,8 +32,9 @@ kind = 'h-beam'
 require = 'A >= 0.02'
 ";
 
-/// Ribs of either kind, every second one a rectangle between two sections of its own, with numbers that differ.
-fn network(ribs: usize, folder: &Path) -> RibModel {
+/// Ribs between two sections of their own, with numbers that differ: rectangles, every second one an H beam where wanted
+/// (whose volume has local minima).
+fn network(ribs: usize, with_h_beams: bool, folder: &Path) -> RibModel {
     let mut sections = String::from(
         "name,kind,b.lower,b.upper,b.start,h.lower,h.upper,h.start,b1,h1.lower,h1.upper,h1.start,b2.lower,b2.upper,b2.start,h2.lower,h2.upper,h2.start,I_req\n",
     );
@@ -42,7 +43,7 @@ fn network(ribs: usize, folder: &Path) -> RibModel {
         for end in ["i", "j"] {
             let vary = (rib * 7 + end.len() + usize::from(end == "j") * 3) % 11;
             let required = 1e-5 * (1.0 + vary as f64);
-            let row = if rib % 2 == 0 {
+            let row = if rib % 2 == 0 || !with_h_beams {
                 format!("r{rib}{end},rectangle,0.02,0.5,0.1,0.02,0.5,0.3,,,,,,,,,,,{required}")
             } else {
                 format!("r{rib}{end},h-beam,,,,,,,0.0{}1,0.02,0.35,0.2,0.1,0.5,0.2,0.36,0.5,0.45,", vary % 9 + 1)
@@ -117,7 +118,7 @@ impl Model for Whole<'_> {
 #[test]
 fn the_joined_solution_is_certified_and_equals_that_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let model = network(60, folder.path());
+    let model = network(60, false, folder.path());
     let (apart, whole) = (solve(&model), solve(&Whole(&model)));
     assert!(apart.message.contains("60 independent components"), "{}", apart.message);
     let judge = |solution: &Solution| {
@@ -131,12 +132,12 @@ fn the_joined_solution_is_certified_and_equals_that_of_the_whole() {
 }
 
 #[test]
-fn an_answer_with_its_multipliers_is_known_again_at_once() {
+fn an_answer_with_its_multipliers_is_known_again() {
     let folder = tempfile::tempdir().unwrap();
-    let model = network(60, folder.path());
+    let model = network(60, false, folder.path());
     let first = solve(&model);
     let again = solve_from(&model, &first.x, first.multipliers.as_deref());
-    assert_eq!(again.iterations, Some(1), "{}", again.message);
+    assert!(again.message.contains("at most 0 Newton steps"), "{}", again.message);
     let far = first.x.iter().zip(&again.x).map(|(a, b)| (a - b).abs() / a.abs()).fold(0.0, f64::max);
     assert!(far < 1e-12, "{far}");
 }
@@ -144,7 +145,7 @@ fn an_answer_with_its_multipliers_is_known_again_at_once() {
 #[test]
 fn the_bytes_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let model = network(300, folder.path());
+    let model = network(300, true, folder.path());
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| solve(&model)).x
@@ -156,7 +157,7 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
 #[test]
 fn a_component_is_a_model_with_exact_derivatives_and_its_dense_twin_agrees() {
     let folder = tempfile::tempdir().unwrap();
-    let model = network(4, folder.path());
+    let model = network(4, true, folder.path());
     let components = model.components().expect("ribs without shared sections");
     assert_eq!(components.partition().len(), 4);
     let mut local = components.local();
@@ -169,10 +170,11 @@ fn a_component_is_a_model_with_exact_derivatives_and_its_dense_twin_agrees() {
         let (mut rows, mut gradient, mut jacobian) = (vec![0.0; m], vec![0.0; n], vec![0.0; m * n]);
         let objective = local.first_order(x, &mut rows, &mut gradient, &mut jacobian);
         let (mut own_rows, mut own_gradient, mut own_jacobian) = (vec![0.0; m], vec![0.0; n], vec![0.0; meta.jacobian.len()]);
-        assert_eq!(objective, part.gradient(x, &mut own_gradient).unwrap());
+        let own_objective = part.gradient(x, &mut own_gradient).unwrap();
         part.constraints(x, &mut own_rows).unwrap();
         part.jacobian(x, &mut own_jacobian).unwrap();
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-14 * (1.0 + a.abs());
+        assert!(close(objective, own_objective), "{objective} {own_objective}");
         assert!(gradient.iter().zip(&own_gradient).chain(rows.iter().zip(&own_rows)).all(|(a, b)| close(*a, *b)));
         assert!(meta.jacobian.iter().zip(&own_jacobian).all(|((i, j), value)| close(jacobian[i * n + j], *value)));
         let (y, mut dense, mut sparse) = (vec![0.7; m], vec![0.0; n * n], vec![0.0; meta.hessian.len()]);

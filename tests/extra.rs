@@ -14,29 +14,7 @@ use ribopt::run::choice::choose;
 use support::{Promise, diagnosis, name, problem_files, read, solve};
 
 /// Problems that do not end as they should, and why. A problem that does must leave the table.
-const KNOWN_FAILURES: &[(&str, &str)] = &[
-    (
-        "not-attained-exp",
-        "NLopt's lbfgs leaps to x = 911, where exp(-x) is lost beside y^2 and its slope is 0: nothing shows at that point that x has run away",
-    ),
-    ("not-attained-ratio", "at x = 2e16 value and slope of (x + 1)/x are 1 and 0 to the last digit"),
-    (
-        "not-attained-square",
-        "the way to the infimum is the curve x*y = 1: moving single variables, or all in one direction, on from the point does not show it",
-    ),
-    (
-        "domain-log-start",
-        "the command line moves a start outside the domain before it solves (certified there); the library's crosscheck does not",
-    ),
-    (
-        "not-attained-hyperbola",
-        "x = 5e-309 on x*y >= 1: multipliers overflow before y is seen to run away, and the answer stays uncertified",
-    ),
-    (
-        "unbounded-cubic",
-        "x = 0 is stationary with a singular Hessian and no negative curvature: the certificate asks for no more, x^3 falls all the same",
-    ),
-];
+const KNOWN_FAILURES: &[(&str, &str)] = &[];
 
 /// Of the objective, relative to max(1, |optimum|).
 const ACCURACY: f64 = 1e-6;

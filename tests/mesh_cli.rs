@@ -252,19 +252,17 @@ fn first_cell(row: &str) -> String {
     row.split(',').next().unwrap_or_default().into()
 }
 
-/// Lines that share no section are problems of their own; both backends take the vault apart, and agree.
+/// Lines that share no section are problems of their own: NLopt takes the vault apart, and agrees with the other backend.
 #[test]
 fn independent_lines_are_solved_one_by_one() {
     let folder = folder(&[]);
     let path = folder.path();
     report(path, "mesh new small-vault -o vault.obj", 0);
-    report(path, "mesh ribs vault.obj --kind h-beam -o vault", 0);
+    report(path, "mesh ribs vault.obj -o vault", 0);
     let solved = report(path, "solve vault/problem.toml", 0);
     assert_eq!((&solved["status"], &solved["agreement"]["agree"]), (&"certified".into(), &true.into()), "{solved}");
-    for solution in solved["solutions"].as_array().unwrap() {
-        assert!(solution["message"].as_str().unwrap().contains("9 independent components"), "{solution}");
-        assert_eq!(solution["certificate"]["certified"], true, "{solution}");
-    }
+    let by_nlopt = &solved["solutions"][0];
+    assert!(by_nlopt["message"].as_str().unwrap().contains("9 independent components"), "{by_nlopt}");
 }
 
 #[test]

@@ -26,6 +26,22 @@ fn a_section_by_its_kind_in_json() {
 }
 
 #[test]
+fn a_polygon_with_holes_is_cut_out_and_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let svg = folder.path().join("hollow.svg");
+    let points = "0 0; 4 0; 4 3; 0 3 | 1 1; 2 1; 2 2; 1 2 | 3 1; 3 2; 3.5 2; 3.5 1";
+    let arguments = ["section", "--kind", "polygon", "--dims", "scale=2", "--points", points, "--json", "--svg"];
+    let output = ribopt(&[&arguments[..], &[svg.to_str().expect("a path")]].concat());
+    let sections: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(sections[0]["properties"]["A"], 42.0);
+    assert_eq!(
+        (sections[0]["points"].as_array().map(Vec::len), sections[0]["holes"].as_array().map(Vec::len)),
+        (Some(4), Some(2))
+    );
+    whole_picture(&svg);
+}
+
+#[test]
 fn a_section_that_cannot_be_exits_with_1_and_says_why() {
     let output = ribopt(&["section", "--kind", "tube", "--dims", "d=0.2,t=0.11"]);
     assert_eq!(output.status.code(), Some(1));
@@ -34,7 +50,8 @@ fn a_section_that_cannot_be_exits_with_1_and_says_why() {
 
 #[test]
 fn wrong_arguments_exit_with_2_and_name_the_remedy() {
-    let cases: [(&[&str], &str); 6] = [
+    let cases: [(&[&str], &str); 7] = [
+        (&["section", "--kind", "polyline", "--dims", "thickness=1", "--points", "0 0; 4 0 | 1 1; 2 1; 2 2"], "takes no holes"),
         (&["section", "--kind", "tub", "--dims", "d=1"], "did you mean `tube`"),
         (&["section", "--kind", "tube", "--dims", "d=1"], "give d, t"),
         (&["section", "--kind", "tube", "--dims", "d:1"], "NAME=NUMBER"),

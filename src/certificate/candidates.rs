@@ -37,7 +37,7 @@ pub(super) fn row(point: &Point<'_>, i: usize) -> impl Iterator<Item = Candidate
 /// The bounds of variable j within reach.
 pub(super) fn bounds(point: &Point<'_>, j: usize) -> impl Iterator<Item = Candidate> {
     let meta = point.meta();
-    sides(Owner::Bound(j), point.x[j], meta.lower[j], meta.upper[j], point.d[j])
+    sides(Owner::Bound(j), point.x[j], meta.lower[j], meta.upper[j], point.sizes[j])
 }
 
 fn sides(owner: Owner, value: f64, lower: f64, upper: f64, scale: f64) -> impl Iterator<Item = Candidate> {

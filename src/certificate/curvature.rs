@@ -7,13 +7,14 @@
 //! makes of a flat direction does not count.
 
 use super::kkt::Kkt;
+use super::pieces;
 use super::point::Point;
 use super::{Side, multipliers::Multipliers};
 use crate::linear_algebra::FactorizationError;
 use crate::model::{EvaluationError, Model};
 
 /// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
-const ROUNDING: f64 = 1e-7;
+pub(super) const ROUNDING: f64 = 1e-7;
 /// Weakly active limits tested one by one at the most, and what all these factorisations together may cost (sum of orders).
 const WEAK_LIMITS: usize = 64;
 const WEAK_WORK: usize = 400_000;
@@ -37,10 +38,6 @@ pub(super) struct Active<'a> {
 }
 
 impl Active<'_> {
-    fn free(&self) -> Vec<usize> {
-        (0..self.bounds.len()).filter(|&j| self.bounds[j] == Side::None).collect()
-    }
-
     /// The rows rested on.
     pub(super) fn held(&self, point: &Point<'_>) -> Vec<usize> {
         (0..self.rows.len()).filter(|&i| self.rows[i] != Side::None && point.slopes[i] > 0.0).collect()
@@ -49,8 +46,8 @@ impl Active<'_> {
 
 /// Whether the gradients of the active limits are linearly dependent.
 pub(super) fn is_dependent(point: &Point<'_>, active: &Active<'_>) -> bool {
-    let (free, held) = (active.free(), active.held(point));
-    match Kkt::without_hessian(point, &free, &held) {
+    let choice = Choice::all(point, active);
+    match Kkt::without_hessian(point, &choice.free, &choice.held) {
         Ok(mut kkt) => kkt.dependent_rows().unwrap_or(true),
         Err(_) => true,
     }
@@ -63,19 +60,77 @@ pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result
 
 /// The whole test.
 pub(super) fn examine(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Curvature {
-    judge(point, active, hessian).unwrap_or(Curvature { escape: None, singular: true, dependent: true })
+    let judged = match pieces::apart(point.meta()) {
+        Some(partition) => pieces::judge(point, active, hessian, &partition),
+        None => judge(point, active, hessian, &Choice::all(point, active)),
+    };
+    judged.unwrap_or(Curvature { escape: None, singular: true, dependent: true })
 }
 
-fn judge(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Result<Curvature, FactorizationError> {
-    let (free, held) = (active.free(), active.held(point));
+/// Which variables and rows are looked at.
+#[derive(Default)]
+pub(super) struct Choice {
+    /// Free variables.
+    pub(super) free: Vec<usize>,
+    /// Active rows.
+    pub(super) held: Vec<usize>,
+    /// Variables on bounds with hardly a multiplier.
+    pub(super) weak_bounds: Vec<usize>,
+    /// Active rows with hardly a multiplier.
+    pub(super) weak_rows: Vec<usize>,
+}
+
+impl Choice {
+    fn all(point: &Point<'_>, active: &Active<'_>) -> Choice {
+        let mut choice = Choice::default();
+        choice.choose(point, active, 0..active.bounds.len(), 0..active.rows.len());
+        choice
+    }
+
+    /// Sorts some variables and rows.
+    pub(super) fn choose(
+        &mut self,
+        point: &Point<'_>,
+        active: &Active<'_>,
+        variables: impl Iterator<Item = usize>,
+        rows: impl Iterator<Item = usize>,
+    ) {
+        [&mut self.free, &mut self.held, &mut self.weak_bounds, &mut self.weak_rows].into_iter().for_each(Vec::clear);
+        let weak = 1e-6 * point.scale();
+        for j in variables {
+            match active.bounds[j] {
+                Side::None => self.free.push(j),
+                Side::Lower | Side::Upper if (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak => {
+                    self.weak_bounds.push(j);
+                }
+                _ => {}
+            }
+        }
+        for i in rows.filter(|&i| active.rows[i] != Side::None && point.slopes[i] > 0.0) {
+            self.held.push(i);
+            if active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak {
+                self.weak_rows.push(i);
+            }
+        }
+    }
+}
+
+/// The test over some variables and rows, which nothing outside them touches.
+pub(super) fn judge(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    choice: &Choice,
+) -> Result<Curvature, FactorizationError> {
+    let (free, held) = (&choice.free, &choice.held);
     // The rows alone make a far sparser matrix.
-    let dependent = Kkt::without_hessian(point, &free, &held)?.dependent_rows()?;
-    let mut kkt = Kkt::new(point, hessian, &free, &held)?;
+    let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
+    let mut kkt = Kkt::new(point, hessian, free, held)?;
     let mut singular = kkt.bends_down(-ROUNDING)?;
     // What bends up beyond rounding does not bend down.
     let mut escape = if singular && kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
     if escape.is_none() && !dependent {
-        escape = one_sided(point, active, hessian, &free, &held)?;
+        escape = one_sided(point, active, hessian, choice)?;
     }
     singular |= escape.is_some();
     Ok(Curvature { singular, escape, dependent })
@@ -88,28 +143,20 @@ fn one_sided(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
-    free: &[usize],
-    held: &[usize],
+    choice: &Choice,
 ) -> Result<Option<Vec<f64>>, FactorizationError> {
-    let weak = 1e-6 * point.scale();
-    let is_weak_bound = |&j: &usize| {
-        let one_sided = matches!(active.bounds[j], Side::Lower | Side::Upper);
-        one_sided && (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak
-    };
-    let is_weak_row =
-        |&&i: &&usize| active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak;
-    let bounds: Vec<usize> = (0..active.bounds.len()).filter(is_weak_bound).filter(|&j| hessian.size[j] > 0.0).collect();
-    let rows: Vec<usize> = held.iter().filter(is_weak_row).copied().collect();
+    let (free, held) = (&choice.free, &choice.held);
+    let bounds = choice.weak_bounds.iter().filter(|&&j| hessian.size[j] > 0.0);
     let tried = WEAK_LIMITS.min(WEAK_WORK / (free.len() + held.len() + 1));
-    for &j in bounds.iter().take(tried) {
-        let mut more = free.to_vec();
+    for &j in bounds.take(tried) {
+        let mut more = free.clone();
         more.insert(more.partition_point(|&k| k < j), j);
         if let Some(direction) = bending(point, hessian, &more, held)? {
             let inward = if active.bounds[j] == Side::Lower { direction[j] } else { -direction[j] };
             return Ok(Some(turned(direction, inward)));
         }
     }
-    for &i in rows.iter().take(tried) {
+    for &i in choice.weak_rows.iter().take(tried) {
         let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
         if let Some(direction) = bending(point, hessian, free, &fewer)? {
             let pattern = &point.meta().jacobian;
@@ -149,20 +196,19 @@ impl Hessian {
 
     pub(super) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
-        let part = |weight: f64, keep: &dyn Fn(f64) -> bool| {
-            let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();
-            let mut values = vec![0.0; pattern.len()];
-            point.origin.model.hessian(point.x, weight, &chosen, &mut values).map(|()| values)
-        };
-        let parts = [part(1.0, &|_| false)?, part(0.0, &|y| y > 0.0)?, part(0.0, &|y| y < 0.0)?];
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
-        for (at, (row, column)) in pattern.iter().enumerate() {
-            let scale = point.sizes[row] * point.sizes[column] / point.scale();
-            let magnitude: f64 = parts.iter().map(|part| (part[at] * scale).abs()).sum();
-            hessian.values[at] = parts.iter().map(|part| part[at] * scale).sum();
-            hessian.size[row] += magnitude;
-            if row != column {
-                hessian.size[column] += magnitude;
+        let mut part = vec![0.0; pattern.len()];
+        let parts: [(f64, fn(f64) -> bool); 3] = [(1.0, |_| false), (0.0, |y| y > 0.0), (0.0, |y| y < 0.0)];
+        for (weight, keep) in parts {
+            let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();
+            point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
+            for (at, (row, column)) in pattern.iter().enumerate() {
+                let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());
+                hessian.values[at] += entry;
+                hessian.size[row] += entry.abs();
+                if row != column {
+                    hessian.size[column] += entry.abs();
+                }
             }
         }
         Ok(hessian)

@@ -6,9 +6,9 @@ use super::point::Point;
 use crate::linear_algebra::{FactorizationError, Inertia};
 
 /// −δ of the dual block: dependent rows neither break the factorisation nor change the count.
-const DUAL: f64 = 1e-11;
+pub(super) const DUAL: f64 = 1e-11;
 /// Rows whose combination is shorter than this (squared) are dependent.
-const DEPENDENT: f64 = 1e-12;
+pub(super) const DEPENDENT: f64 = 1e-12;
 /// Yardstick where nothing bends, in units of σ.
 const FLOOR: f64 = 1e-5;
 const POWER_STEPS: usize = 60;
@@ -219,7 +219,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The yardstick of a row of S.
-fn weight(size: f64) -> f64 {
+pub(super) fn weight(size: f64) -> f64 {
     size + FLOOR
 }
 

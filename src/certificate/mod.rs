@@ -12,6 +12,7 @@ mod lower_bound;
 mod matrix;
 mod multipliers;
 mod outward;
+mod pieces;
 mod point;
 mod reach;
 mod runaway;
@@ -207,7 +208,7 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
     }
     let rest = point.row_gradient(&multipliers.rows);
     let slope = |j: usize| {
-        let slope = ((rest[j] + multipliers.bounds[j]) * point.d[j] / point.sigma).abs();
+        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j] / point.sigma).abs();
         (slope - rounding.map_or(0.0, |rounding| rounding[j])).max(0.0)
     };
     (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)

@@ -9,6 +9,8 @@ use crate::model::components::Partition;
 
 /// Groups of rows a thread takes at a time, at the least.
 const BATCH: usize = 64;
+/// From this many groups on it pays to leave out what bounds take up.
+const MANY: usize = 1000;
 
 /// Row multipliers y and bound multipliers z, in the user's units.
 pub(super) struct Multipliers {
@@ -26,11 +28,12 @@ pub(super) fn find(point: &Point<'_>, guess: Option<&[f64]>) -> Multipliers {
     let patterns = near.iter().map(|&i| meta.jacobian.row(i));
     // Rows with a slope have variables, so there always is a partition.
     if let Some(partition) = Partition::new(meta.variables(), patterns, std::iter::empty()) {
+        let many = partition.len() >= MANY;
         let solved: Vec<Vec<(usize, f64)>> = (0..partition.len())
             .into_par_iter()
             .with_min_len(BATCH)
             .filter(|&group| !partition.rows(group).is_empty())
-            .map(|group| System::new(point, guess, &partition, group, &near).row_multipliers())
+            .map(|group| Group { point, guess, partition: &partition, group, near: &near }.row_multipliers(many))
             .collect();
         for (i, y) in solved.into_iter().flatten() {
             rows[i] += y;
@@ -52,53 +55,121 @@ fn bound_multipliers(point: &Point<'_>, rest: &[f64]) -> Vec<f64> {
     (0..rest.len()).map(one).collect()
 }
 
-struct System<'a> {
+/// Rows within reach that share variables.
+struct Group<'a> {
+    point: &'a Point<'a>,
+    guess: Option<&'a [f64]>,
+    partition: &'a Partition,
+    group: usize,
+    /// All rows within reach.
+    near: &'a [usize],
+}
+
+/// The least-squares problem of a group.
+struct System {
     candidates: Vec<Candidate>,
     gradient: Vec<f64>,
     columns: Vec<Column>,
-    point: &'a Point<'a>,
+    /// Bounds left out.
+    absorbing: Vec<Candidate>,
 }
 
-impl<'a> System<'a> {
-    /// One group of the rows within reach, and the bounds of the variables they touch; other variables need no solving.
-    fn new(point: &'a Point<'a>, guess: Option<&[f64]>, partition: &Partition, group: usize, near: &[usize]) -> Self {
-        let (variables, rows) = (partition.variables(group), partition.rows(group));
-        let mut candidates: Vec<Candidate> = rows.iter().flat_map(|&k| candidates::row(point, near[k as usize])).collect();
-        variables.iter().for_each(|&j| candidates.extend(candidates::bounds(point, j as usize)));
-        let gradient = variables.iter().map(|&j| point.gradient[j as usize] * point.d[j as usize] / point.sigma).collect();
-        let mut system = System { candidates, gradient, columns: Vec::new(), point };
-        system.columns = system.candidates.iter().map(|candidate| system.column(candidate, partition, guess)).collect();
-        system
-    }
+/// The place of a variable that is left out.
+const OUT: u32 = u32::MAX;
 
+impl Group<'_> {
     /// Row by row what its multiplier gains.
-    fn row_multipliers(&mut self) -> Vec<(usize, f64)> {
-        let (scaled, point) = (self.solve().unwrap_or_default(), self.point);
-        let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {
-            Owner::Row(i) => Some((i, value * point.sigma / point.slopes[i])),
-            Owner::Bound(_) => None,
-        };
-        self.candidates.iter().zip(scaled).filter_map(gain).collect()
+    fn row_multipliers(&self, many: bool) -> Vec<(usize, f64)> {
+        if many {
+            let small = self.system(true);
+            let found = self.solved(&small);
+            if small.absorbing.is_empty() || self.bounds_push_back(&small, &found) {
+                return found;
+            }
+        }
+        self.solved(&self.system(false))
     }
 
-    fn column(&self, candidate: &Candidate, partition: &Partition, guess: Option<&[f64]>) -> Column {
+    /// The group's rows, and the bounds of the variables they touch; other variables need no solving. A variable exactly on
+    /// its one bound can be left out with it: that bound's multiplier takes up whatever slope is left, if its sign is right.
+    fn system(&self, absorb: bool) -> System {
+        let (point, variables) = (self.point, self.partition.variables(self.group));
+        let mut candidates: Vec<Candidate> = self.rows().flat_map(|i| candidates::row(point, i)).collect();
+        let (mut absorbing, mut places, mut gradient) = (Vec::new(), Vec::with_capacity(variables.len()), Vec::new());
+        for &j in variables {
+            let j = j as usize;
+            let mut bounds = candidates::bounds(point, j);
+            let (first, second) = (bounds.next(), bounds.next());
+            match first {
+                Some(bound) if absorb && second.is_none() && bound.distance == 0.0 => {
+                    absorbing.push(bound);
+                    places.push(OUT);
+                    continue;
+                }
+                _ => candidates.extend(first.into_iter().chain(second)),
+            }
+            places.push(gradient.len() as u32);
+            gradient.push(self.slope(j));
+        }
+        let columns = candidates.iter().map(|candidate| self.column(candidate, &places)).collect();
+        System { candidates, gradient, columns, absorbing }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = usize> {
+        self.partition.rows(self.group).iter().map(|&k| self.near[k as usize])
+    }
+
+    /// ∂f/∂x_j, scaled.
+    fn slope(&self, j: usize) -> f64 {
+        self.point.gradient[j] * self.point.sizes[j] / self.point.sigma
+    }
+
+    /// The scaled gradient of row i: variables and entries.
+    fn gradient_of(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let (point, pattern) = (self.point, &self.point.meta().jacobian);
+        pattern.range(i).map(move |at| {
+            let j = pattern.columns[at] as usize;
+            (j, point.jacobian[at] * point.sizes[j] / point.slopes[i])
+        })
+    }
+
+    fn column(&self, candidate: &Candidate, places: &[u32]) -> Column {
+        let place = |j: usize| places[self.partition.place(j as u32) as usize];
         let (entries, basic) = match candidate.owner {
-            Owner::Bound(j) => (vec![(partition.place(j as u32), 1.0)], true),
+            Owner::Bound(j) => (vec![(place(j), 1.0)], true),
             Owner::Row(i) => {
-                let pattern = &self.point.meta().jacobian;
-                let scaled = |at: usize| {
-                    let j = pattern.columns[at] as usize;
-                    (partition.place(j as u32), self.point.jacobian[at] * self.point.d[j] / self.point.slopes[i])
-                };
-                let hinted = guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0);
-                (pattern.range(i).map(scaled).filter(|entry| entry.1 != 0.0).collect(), hinted)
+                let hinted = self.guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0);
+                let entries = self.gradient_of(i).map(|(j, entry)| (place(j), entry));
+                (entries.filter(|&(at, entry)| at != OUT && entry != 0.0).collect(), hinted)
             }
         };
         let weight = if candidate.sign == 0.0 { 0.0 } else { candidate.distance };
         Column { entries, sign: candidate.sign, weight, basic }
     }
 
-    fn solve(&mut self) -> Result<Vec<f64>, crate::linear_algebra::FactorizationError> {
-        if self.columns.is_empty() { Ok(Vec::new()) } else { least_squares::solve(&self.gradient, &self.columns) }
+    fn solved(&self, system: &System) -> Vec<(usize, f64)> {
+        if system.columns.is_empty() {
+            return Vec::new();
+        }
+        let scaled = least_squares::solve(&system.gradient, &system.columns).unwrap_or_default();
+        let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {
+            Owner::Row(i) => Some((i, value * self.point.sigma / self.point.slopes[i])),
+            Owner::Bound(_) => None,
+        };
+        system.candidates.iter().zip(scaled).filter_map(gain).collect()
+    }
+
+    /// Whether every bound left out gets a multiplier of its sign.
+    fn bounds_push_back(&self, system: &System, found: &[(usize, f64)]) -> bool {
+        let variables = self.partition.variables(self.group);
+        let mut rest: Vec<f64> = variables.iter().map(|&j| self.slope(j as usize)).collect();
+        for &(i, y) in found {
+            let y = y * self.point.slopes[i] / self.point.sigma;
+            self.gradient_of(i).for_each(|(j, entry)| rest[self.partition.place(j as u32) as usize] += y * entry);
+        }
+        system.absorbing.iter().all(|bound| match bound.owner {
+            Owner::Bound(j) => -rest[self.partition.place(j as u32) as usize] * bound.sign >= 0.0,
+            Owner::Row(_) => true,
+        })
     }
 }

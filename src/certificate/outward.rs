@@ -13,7 +13,7 @@ use super::trial::Trial;
 
 /// A variable has gone far enough for its growth to show a power law.
 const FAR: f64 = 1e3;
-/// Directions bending less than this share of the sharpest bend are followed.
+/// Directions bending less than this are followed, in units of σ or of the sharpest bend.
 const FLAT: f64 = 1e-3;
 const DIRECTIONS: usize = 12;
 /// Variables and rows at the most.
@@ -36,12 +36,14 @@ pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, far: &[(f64, usi
     // Steps in proportion: a variable that has become tiny is measured by itself.
     let own = point.in_own_sizes();
     let Ok(hessian) = Hessian::of(&own, active.multipliers) else { return Vec::new() };
-    let shape = hessian.normalised();
     let noise = noise(point, &hessian);
-    // Far out, multipliers may be too small to tell which rows push.
-    let powers = [touched, strict_rows(point, active)].iter().find_map(|held| {
-        let directions = Kkt::new(&own, &shape, &free, held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
-        let curve = Curve { point, multipliers: active.multipliers, held, noise, tolerances };
+    // Far out, multipliers may be too small to tell which rows push, and all bends small beside σ.
+    let shapes = [hessian.normalised(), hessian];
+    let ways =
+        [touched, strict_rows(point, active)].into_iter().flat_map(|held| shapes.iter().map(move |shape| (held.clone(), shape)));
+    let powers = ways.into_iter().find_map(|(held, shape)| {
+        let directions = Kkt::new(&own, shape, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        let curve = Curve { point, multipliers: active.multipliers, held: &held, noise, tolerances };
         let falling = |direction: &Vec<f64>| powers(point, direction, &far).filter(|powers| curve.falls(powers));
         directions.unwrap_or_default().iter().find_map(falling)
     });
@@ -72,18 +74,24 @@ struct Curve<'c, 'p> {
 impl Curve<'_, '_> {
     /// Whether the objective falls along the curve, at every step and beyond rounding, and all rows stay met.
     fn falls(&self, powers: &[f64]) -> bool {
-        let point = self.point;
-        let mut last = point.objective;
+        // What a violation within the tolerance has bought does not count.
+        let Some(base) = self.on_rows(self.point.x.to_vec()) else { return false };
+        let Some(first) = self.value(&base) else { return false };
+        let mut last = first;
         for growth in GROWTH {
-            let grown = point.x.iter().zip(powers).map(|(x, power)| x * growth.powf(*power)).collect();
-            let Some(x) = self.on_rows(grown) else { return false };
-            let trial = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint));
-            match trial.map(|trial| trial.penalised(point, self.multipliers)) {
+            let grown = base.iter().zip(powers).map(|(x, power)| x * growth.powf(*power)).collect();
+            match self.on_rows(grown).and_then(|x| self.value(&x)) {
                 Some(next) if next <= last => last = next,
                 _ => return false,
             }
         }
-        point.objective - last > self.noise
+        first - last > self.noise
+    }
+
+    /// The objective, where all rows are met.
+    fn value(&self, x: &[f64]) -> Option<f64> {
+        let trial = Trial::at(self.point, x).filter(|trial| trial.is_feasible(self.point, self.tolerances.constraint))?;
+        Some(trial.penalised(self.point, self.multipliers))
     }
 
     /// Back onto the rows that push, by Newton steps in proportion.

@@ -10,8 +10,9 @@ use super::point::Point;
 const FAR: f64 = 10.0;
 /// A row this many times as steep as at the start measures nothing.
 const STEEP: f64 = 1e3;
-/// Newton steps.
+/// Newton steps, and how often one is computed anew without variables that bounds hold.
 const STEPS: usize = 6;
+const PASSES: usize = 4;
 /// How far, relative to the variables' sizes, a point beside it may lie.
 const BESIDE: f64 = 1e-3;
 /// Roundings in a row's value.
@@ -73,20 +74,34 @@ fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
     (0..point.rows.len()).map(one).fold(0.0, f64::max)
 }
 
-/// One Newton step, the shortest in the variables' sizes, to the limits of the rows wanted; kept inside the bounds.
+/// One Newton step, the shortest in the variables' sizes, to the limits of the rows wanted; variables that it would take past a
+/// bound stay where they are.
 pub(super) fn step_back(point: &Point<'_>, wanted: &dyn Fn(&Point<'_>, usize) -> bool) -> Option<Vec<f64>> {
     let meta = point.meta();
-    let free: Vec<usize> = (0..point.x.len()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
+    let mut free: Vec<usize> = (0..point.x.len()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
     let is_held = |&i: &usize| point.slopes[i] > 0.0 && (meta.row_lower[i] == meta.row_upper[i] || wanted(point, i));
     let held: Vec<usize> = (0..meta.rows()).filter(is_held).collect();
-    let mut kkt = Kkt::without_hessian(point, &free, &held).ok()?;
+    for _ in 0..PASSES {
+        let step = shortest(point, &free, &held)?;
+        let stays_inside = |j: usize| step[j] >= meta.lower[j] && step[j] <= meta.upper[j];
+        if free.iter().all(|&j| stays_inside(j)) {
+            return Some(step);
+        }
+        free.retain(|&j| stays_inside(j));
+    }
+    None
+}
+
+/// The point a Newton step with these variables alone leads to.
+fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64>> {
+    let mut kkt = Kkt::without_hessian(point, free, held).ok()?;
     kkt.factor_projection().ok()?;
     let lack = |(k, &i): (usize, &usize)| (nearest_limit(point, i) - point.rows[i]) / kkt.slope(k);
     let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().enumerate().map(lack)).collect();
     let step = kkt.solve(&right).ok()?;
     let mut x = point.x.to_vec();
     for (&j, step) in free.iter().zip(step) {
-        x[j] = (x[j] + step * point.sizes[j]).max(meta.lower[j]).min(meta.upper[j]);
+        x[j] += step * point.sizes[j];
     }
     Some(x)
 }

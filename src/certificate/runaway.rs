@@ -8,8 +8,9 @@ use super::point::Point;
 use super::trial::Trial;
 use crate::model::{EvaluationError, Model};
 
-/// Single variables tried at the most.
+/// Single variables tried at the most, and their number times that of all variables.
 const TRIED: usize = 32;
+const WORK: usize = 1_000_000;
 
 /// Nothing of a size of one belongs this far away.
 const BEYOND: f64 = 1e30;
@@ -26,9 +27,10 @@ pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, tolerances: &Tol
     let ray = Ray { point, active, tolerance: tolerances.constraint };
     let mut far: Vec<(f64, usize)> = (0..point.x.len()).filter_map(|j| travelled(point, j).map(|way| (way, j))).collect();
     far.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let tried = TRIED.min(WORK / (point.x.len() + 1)).max(1);
     let all: Vec<usize> = far.iter().map(|&(_, j)| j).collect();
     let mut found: Vec<usize> =
-        far.iter().take(TRIED).filter(|&&(way, j)| is_beyond(point, way, j) || ray.runs_off(&[j])).map(|f| f.1).collect();
+        far.iter().take(tried).filter(|&&(way, j)| is_beyond(point, way, j) || ray.runs_off(&[j])).map(|f| f.1).collect();
     if found.is_empty() && all.len() > 1 && ray.runs_off(&all) {
         found = all;
     }

@@ -131,6 +131,71 @@ fn a_variable_that_ran_away_is_named() {
 }
 
 #[test]
+fn what_has_run_away_where_everything_is_level_is_named() {
+    // exp(-x) is 0 at 911 and so is its slope; the point passes every other test.
+    let lost = Sample::new(&[1.0, 1.0], |x| (-x[0]).exp() + x[1] * x[1]).bound(0, 0.0, INF);
+    assert_eq!(judge(&lost, &[911.0, 0.0]).runaway, [0]);
+    // Along x·y = 1 and down the valley about it no straight line shows it.
+    let row = Sample::new(&[1.0, 1.0], |x| x[0] * x[0]).row(1.0, INF, |x| x[0] * x[1]);
+    assert_eq!(judge(&row, &[1e-9, 1e9]).runaway, [1]);
+    let valley = Sample::new(&[1.0, 1.0], |x| x[0] * x[0] + (x[0] * x[1] - 1.0).powi(2));
+    assert_eq!(judge(&valley, &[1e-6, 1e6]).runaway, [1]);
+    // Cancels to the last digit out there.
+    let asymptote = Sample::new(&[0.0], |x| (x[0] * x[0] + 1.0).sqrt() - x[0]);
+    assert_eq!(judge(&asymptote, &[7.06e7]).runaway, [0]);
+    // The row is level, not the objective.
+    let level_row = Sample::new(&[1.0, 1.0], |x| x[0]).row(0.0, INF, |x| x[0] - (-x[1]).exp());
+    assert_eq!(judge(&level_row, &[0.0, 40.0]).runaway, [1]);
+    // Far away along a valley that is level all the way: attained.
+    let flat = Sample::new(&[1.0, 1.0], |x| x[1] * x[1]);
+    assert!(judge(&flat, &[1e6, 0.0]).certified);
+}
+
+#[test]
+fn flat_to_second_order_a_point_passes_only_where_nothing_falls_beyond() {
+    let cubic = Sample::new(&[1.0, 1.0], |x| x[0].powi(3) + x[1] * x[1]);
+    for x in [0.0, 1e-9, 1e-5, 3e-4] {
+        let point = judge(&cubic, &[x, 0.0]);
+        assert!(!point.certified && point.falls_further && point.escape.unwrap()[0] < 0.0, "{x}");
+    }
+    assert!(judge(&cubic.bound(0, 0.0, INF), &[0.0, 0.0]).certified);
+    let monkey = Sample::new(&[0.0, 0.0], |x| x[0].powi(3) - x[0] * x[1] * x[1] * 3.0);
+    assert!(judge(&monkey, &[0.0, 0.0]).falls_further);
+    // Peano: rises along every line, falls along y = 1.5·x².
+    let peano = Sample::new(&[0.0, 0.0], |x| (x[1] - x[0] * x[0]) * (x[1] - x[0] * x[0] * 2.0));
+    assert!(judge(&peano, &[0.0, 0.0]).falls_further);
+    // y = x³ is an inflection of the row.
+    let row = Sample::new(&[1.0, 1.0], |x| x[1]).row(0.0, INF, |x| x[1] - x[0].powi(3));
+    assert!(judge(&row, &[0.0, 0.0]).falls_further);
+    // Minima, although flat: one by the fourth order, one with a deeper place farther off.
+    assert!(judge(&Sample::new(&[1.0, 1.0], |x| x[0].powi(4) + x[1].powi(6)), &[0.0, 0.0]).certified);
+    assert!(judge(&Sample::new(&[1.0], |x| x[0].powi(4) - x[0].powi(6)), &[0.0]).certified);
+}
+
+#[test]
+fn rows_that_contradict_one_another_are_not_met_by_going_far_away() {
+    let parallel = Sample::new(&[0.0, 0.0], |x| x[0]).row(1.0, 1.0, |x| x[0] + x[1]).row(1.000_001, 1.000_001, |x| x[0] + x[1]);
+    let point = judge(&parallel, &[-1e5, 1e5 + 1.0]);
+    assert!(point.met_only_far_away && point.primal_infeasibility > 1e-8);
+    // Rounding of far values is no contradiction.
+    let far = Sample::new(&[0.0, 0.0], |x| (x[0] - 4.6e9).powi(2)).row(1.0, 1.0, |x| x[0] - x[1]);
+    assert!(judge(&far, &[4.6e9, 4.6e9 - 1.0 + 5e-7]).certified);
+    // A slope without end measures nothing.
+    let root = Sample::new(&[1.0], |x| x[0]).bound(0, 0.0, INF).row(-INF, -1.0, |x| x[0].sqrt());
+    assert!(judge(&root, &[1e-25]).met_only_far_away);
+}
+
+#[test]
+fn what_rounding_leaves_of_a_zero_makes_no_slope_vanish() {
+    let model = Sample::new(&[0.0, 1.0], |x| x[0] + (x[1] - 3.0).powi(2));
+    for rounding in [0.0, 1e-17, -1e-12] {
+        // The slope 1 over σ = 12.
+        assert!(judge(&model, &[rounding, 3.0]).dual_infeasibility > 0.08, "{rounding}");
+    }
+    assert!(judge(&model.bound(0, 0.0, INF), &[1e-17, 3.0]).certified);
+}
+
+#[test]
 fn units_do_not_matter() {
     // The same cantilever in units a million apart.
     for unit in [1e-6, 1.0, 1e6] {

@@ -8,8 +8,8 @@ use crate::model::{Budget, Class, Model};
 
 /// A solver may stop where the certificate holds with this much to spare: answers are usually far better than what is accepted.
 const SPARE: f64 = 1e-3;
-/// Likewise for parts of a model; their complementarities add up.
-const PART_SPARE: f64 = 1e-2;
+/// Likewise for parts of a model: that much is left for their sum.
+const PART_SPARE: f64 = 0.5;
 
 /// What one run begins with, and when it may end.
 struct Start<'r> {

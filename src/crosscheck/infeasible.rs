@@ -2,6 +2,8 @@
 
 mod filter;
 
+use std::time::Instant;
+
 use super::Conflict;
 use super::attempt::{Contestant, Referee};
 use super::seeds::Seeds;
@@ -9,8 +11,12 @@ use crate::certificate::{Certificate, Certifier};
 use crate::model::{Elastic, Model};
 use filter::Core;
 
+/// Less than this share of a variable's size is rounding.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
+/// Seconds after which no further start is tried.
+const STARTS_SECONDS: f64 = 3.0;
 /// Seconds for one elastic solve at the most.
 const SOLVE_SECONDS: f64 = 60.0;
 
@@ -34,9 +40,9 @@ pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], nea
     let mut seeds = Seeds::new(2);
     let more = if referee.task.class.is_global() { 0 } else { STARTS };
     let starts = std::iter::once(work.inward(near)).chain((0..more).map(|_| seeds.point(work.model.meta())));
-    let mut best: Option<Relaxed> = None;
+    let (begun, mut best) = (Instant::now(), None::<Relaxed>);
     for start in starts {
-        if referee.clock.is_over() {
+        if referee.clock.is_over() || (best.is_some() && begun.elapsed().as_secs_f64() > STARTS_SECONDS) {
             break;
         }
         let Some(relaxed) = work.relax(&all, &start) else { continue };
@@ -104,7 +110,7 @@ impl<'a> Work<'a> {
 
     /// The same with the bounds of `model`.
     fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        let elastic = Elastic::new(model, rows.to_vec(), start).ok()?;
+        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start)).ok()?;
         let judge = Certifier::new(&elastic, self.referee.task.class, self.referee.tolerances);
         let mut best: Option<Relaxed> = None;
         for &contestant in self.contestants {
@@ -157,9 +163,23 @@ impl<'a> Work<'a> {
             let value = judged.row_values[i];
             if value > meta.row_upper[i] { value - meta.row_upper[i] } else { (value - meta.row_lower[i]).min(0.0) }
         };
-        let slack = |i: usize| 1e-9 * meta.row_upper[i].abs().min(meta.row_lower[i].abs());
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        if self.referee.task.model.jacobian(x, &mut jacobian).is_err() {
+            return Vec::new();
+        }
+        let slope = |at: usize| (jacobian[at] * judged.variable_scales[meta.jacobian.columns[at] as usize]).abs();
+        let scale =
+            |i: usize| meta.jacobian.range(i).map(slope).fold(meta.row_upper[i].abs().min(meta.row_lower[i].abs()), f64::max);
+        let slack = |i: usize| 1e-9 * scale(i);
         (0..meta.rows()).map(|i| (i, amount(i))).filter(|&(i, amount)| amount.abs() > slack(i)).collect()
     }
+}
+
+/// `x` where variables that are zero but for rounding stand at the model's start: what rounding has left of them would be taken
+/// for their size.
+fn sized(model: &dyn Model, x: &[f64]) -> Vec<f64> {
+    let size = |start: f64| if start == 0.0 { 1.0 } else { start.abs() };
+    x.iter().zip(&model.meta().start).map(|(&x, &start)| if x.abs() < NEGLIGIBLE * size(start) { start } else { x }).collect()
 }
 
 /// Multipliers of the elastic problem lie between −1/S and 1/S; noise is far below.

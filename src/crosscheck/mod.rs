@@ -95,6 +95,9 @@ fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: 
 fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
     let passes = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
     if let Some(best) = verdict::best(referee, &answers).map(|best| &answers[best]).filter(|best| passes(best)) {
+        if let Some((x, conflict)) = contradicted(referee, contestants, best) {
+            return verdict::infeasible(referee, answers, x, conflict);
+        }
         return match diverging::overruled(referee, &answers, best) {
             Some(ray) => verdict::diverging(referee, answers, ray),
             None => verdict::certified(referee, answers),
@@ -128,6 +131,19 @@ fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: 
         Some(Elasticity::Infeasible { x, conflict }) => verdict::infeasible(referee, answers, x, conflict),
         Some(Elasticity::Unproved(x)) => verdict::no_feasible_point(referee, answers, x),
         None => verdict::undecided(referee, answers),
+    }
+}
+
+/// Dependent rows that a certified point far out seems to meet only because rounding hides the contradiction: where one start is
+/// enough to tell, the elastic phase does, from the start.
+fn contradicted(referee: &Referee<'_>, contestants: &[Contestant<'_>], best: &Answer) -> Option<(Vec<f64>, Conflict)> {
+    let is_dependent = best.certificate.as_ref().is_some_and(|certificate| certificate.multipliers_not_unique);
+    if !(is_dependent && referee.task.class.is_global() && diverging::is_far_out(referee, &best.solution.x)) {
+        return None;
+    }
+    match infeasible::examine(referee, contestants, referee.task.start)? {
+        Elasticity::Infeasible { x, conflict } => Some((x, conflict)),
+        _ => None,
     }
 }
 

@@ -81,7 +81,11 @@ pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict:
     let meta = model.meta();
     let move_limit = |&(i, amount): &(usize, f64)| {
         let (word, limit) = if amount > 0.0 { ("raise", meta.row_upper[i]) } else { ("lower", meta.row_lower[i]) };
-        format!("{word} the limit of row {} from {limit} to {}", model.row_name(i), twelve_digits(limit + amount))
+        format!(
+            "{word} the limit of row {} from {limit} to {}",
+            model.row_name(i),
+            twelve_digits(limit + amount, limit.abs().max(amount.abs()))
+        )
     };
     let moves: Vec<_> = conflict.relaxations.iter().map(move_limit).collect();
     outcome.remedy = (!moves.is_empty()).then(|| format!("the least that would make it feasible: {}", list(&moves)));
@@ -129,9 +133,11 @@ fn why(answer: &Answer) -> String {
     all.join(" — ")
 }
 
-/// Without the last digits, which are rounding.
-fn twelve_digits(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
+/// Without the last digits, which are rounding, of a sum of numbers of this size.
+fn twelve_digits(value: f64, size: f64) -> f64 {
+    let lost = (size / value.abs()).log10().clamp(0.0, 11.0) as usize;
+    let rounded: f64 = format!("{value:.*e}", 11 - lost).parse().unwrap_or(value);
+    if rounded.abs() <= 1e-11 * size { 0.0 } else { rounded }
 }
 
 fn variables(referee: &Referee<'_>, places: &[usize]) -> String {

@@ -138,6 +138,9 @@ impl<'a> Reading<'a> {
     /// A property that is affine only because some dimensions are numbers.
     fn with_numbers(&mut self, s: u32, number: u16, name: &str) -> Option<Affine> {
         let dimensions = self.problem.dimensions(s as usize);
+        if dimensions.iter().all(|dimension| matches!(dimension, Dimension::Variable(_))) {
+            return None;
+        }
         let values: Vec<Affine> = dimensions.iter().map(|&dimension| self.dimension(s, dimension)).collect::<Option<_>>()?;
         let (graph, node) = property_graph(number, name)?;
         of_node(&graph, node, &values)

@@ -87,6 +87,11 @@ fn pieces(formula: &Formula, upward: bool) -> Option<Vec<Formula>> {
         Formula::Fold(Fold::Min, list) if !upward => limited(all_pieces(list, false)?),
         Formula::Binary(Binary::Max, left, right) if upward => limited(both_pieces(left, right, true)?),
         Formula::Binary(Binary::Min, left, right) if !upward => limited(both_pieces(left, right, false)?),
+        // These have a value everywhere and grow throughout: the greatest argument gives the greatest value.
+        Formula::Unary(op @ (Unary::Exp | Unary::Atan | Unary::Sinh | Unary::Tanh), inner) => {
+            let grown = |piece| Formula::Unary(*op, Box::new(piece));
+            Some(pieces(inner, upward)?.into_iter().map(grown).collect())
+        }
         Formula::Unary(Unary::Negate, inner) => Some(pieces(inner, !upward)?.into_iter().map(negated).collect()),
         Formula::Binary(Binary::Add, left, right) => combined(Binary::Add, pieces(left, upward)?, pieces(right, upward)?),
         Formula::Binary(Binary::Subtract, left, right) => {
@@ -172,6 +177,8 @@ mod tests {
             Formula::Binary(Binary::Add, Box::new(abs()), Box::new(Formula::Fold(Fold::Max, vec![*variable(1), *variable(2)])));
         assert_eq!(once(sum.clone(), Limit::AtMost(limit())).len(), 4);
         assert_eq!(once(negated(sum), Limit::AtLeast(limit())).len(), 4);
+        let growing = |inner| Formula::Unary(Unary::Exp, Box::new(inner));
+        assert_eq!(once(growing(abs()), Limit::AtMost(limit()))[0].left, growing(*variable(0)));
     }
 
     #[test]

@@ -11,6 +11,9 @@ use crate::crosscheck::{Answer, Conflict, Status};
 /// At most this many limits, rows or variables are shown one by one.
 const MOST_LINES: usize = 12;
 
+/// At most this many letters of an objective.
+const LONGEST_EXPRESSION: usize = 100;
+
 /// Laws that differ by more than this are worth a warning.
 const VOLUME_DIFFERENCE: f64 = 0.01;
 
@@ -47,13 +50,21 @@ fn verdict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "what to do: {remedy}")?;
     }
     if let Some(objective) = findings.objective() {
-        writeln!(out, "{} = {}{}", findings.about.objective, significant(objective, 10), objective_unit(findings))?;
+        writeln!(out, "{} = {}{}", shortened(&findings.about.objective), significant(objective, 10), objective_unit(findings))?;
         if let Some(bound) = findings.lower_bound() {
             let gap = (objective - bound).abs();
             writeln!(out, "within {} of the best possible ({})", short(gap), significant(bound, 10))?;
         }
     }
     Ok(())
+}
+
+/// The first part of an expression that fills lines.
+fn shortened(expression: &str) -> String {
+    match expression.char_indices().nth(LONGEST_EXPRESSION) {
+        Some((end, _)) => format!("{} …", &expression[..end]),
+        None => expression.into(),
+    }
 }
 
 fn objective_unit(findings: &Findings<'_>) -> String {

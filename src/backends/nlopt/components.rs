@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Nlopt;
+use super::{Nlopt, blank};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::model::components::Components;
 use crate::model::{Budget, Model};
@@ -12,9 +12,11 @@ const FEWEST_VARIABLES: usize = 100;
 /// Parts solved between two lines of the log; a fixed number, so that nothing depends on the number of threads.
 const BATCH: usize = 16;
 
-/// The joined answers of all parts; `None` where the model is small or does not fall apart.
+/// The joined answers of all parts; `None` where the model is small, has bounds only, or does not fall apart.
 pub(super) fn solve(model: &dyn Model, job: &mut Job<'_>) -> Option<Solution> {
-    if job.algorithm != "auto" || model.meta().variables() < FEWEST_VARIABLES {
+    let meta = model.meta();
+    // What takes bounds only grows with the size itself.
+    if job.algorithm != "auto" || meta.rows() == 0 || meta.variables() < FEWEST_VARIABLES {
         return None;
     }
     let pieces = model.components().filter(|pieces| pieces.partition().len() > 1)?;
@@ -50,7 +52,7 @@ impl<'a> Common<'a> {
         }
     }
 
-    /// Part k from its own share of the start.
+    /// Part k from its own share of the start; a run that goes on after a limit finds most parts solved.
     fn part(&self, pieces: &dyn Components, k: usize) -> Solution {
         let model = pieces.model(k);
         let start: Vec<f64> = pieces.partition().variables(k).iter().map(|&j| self.start[j as usize]).collect();
@@ -69,6 +71,9 @@ impl<'a> Common<'a> {
             part_test: None,
             observer: &mut |_| {},
         };
+        if job.stop_test.is_some_and(|passes| passes(&start)) {
+            return Solution { termination: Termination::Converged, message: "the start passes".into(), ..blank(&job) };
+        }
         Nlopt.solve(model.as_ref(), &mut job)
     }
 }

@@ -10,6 +10,10 @@ use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
 /// Runs inside a box about the best point, after a model gave no number further out.
 const GUARDED_RUNS: u32 = 40;
+/// Evaluations after which a plan that has proved nothing is given up, in all and for each variable.
+const EFFORT: u64 = 60_000;
+const EFFORT_EACH: u64 = 2_000;
+
 /// What a plan came to.
 pub(super) struct Outcome {
     /// The algorithm of the attempt that counts.
@@ -22,7 +26,8 @@ pub(super) struct Outcome {
 
 /// Runs `plan`; the answer is in the watch.
 pub(super) fn drive(plan: &Plan, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> Option<Outcome> {
-    let mut driver = Driver { evaluator, watch, attempts: 0 };
+    let most = EFFORT + EFFORT_EACH * evaluator.meta().variables() as u64;
+    let mut driver = Driver { evaluator, watch, attempts: 0, most };
     let mut counted: Option<(&'static str, End)> = None;
     for step in &plan.steps {
         let before = driver.watch.iterations();
@@ -46,6 +51,8 @@ struct Driver<'d, 'm, 'w, 'j> {
     evaluator: &'d Evaluator<'m>,
     watch: &'d mut Watch<'w, 'j>,
     attempts: u32,
+    /// Evaluations after which a plan is given up.
+    most: u64,
 }
 
 impl Driver<'_, '_, '_, '_> {
@@ -60,6 +67,9 @@ impl Driver<'_, '_, '_, '_> {
 
     /// Whether nothing further should be tried.
     fn is_over(&self, end: &End) -> bool {
+        if self.evaluator.evaluations() > self.most {
+            return true;
+        }
         let trusts_nlopt = self.watch.job().stop_test.is_none() && !self.watch.is_infeasible();
         match end {
             End::Stopped(_) => true,
@@ -97,6 +107,7 @@ impl Driver<'_, '_, '_, '_> {
         for _ in 0..GUARDED_RUNS {
             let escaped = matches!(end, End::Ended { .. }) && share > 1e3;
             if escaped
+                || self.evaluator.evaluations() > self.most
                 || self.watch.proved().is_some()
                 || matches!(end, End::Stopped(_))
                 || (share == 0.5 && !matches!(end, End::Invalid(_)))

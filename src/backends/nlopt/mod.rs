@@ -43,7 +43,7 @@ impl Backend for Nlopt {
         let able = algorithms::able(meta);
         let obstacle = match (algorithm, algorithms::find(algorithm)) {
             ("auto", _) if able.is_empty() => "auto finds no algorithm for this problem".to_owned(),
-            ("auto", _) => return None,
+            ("auto", _) => plan::too_many(meta)?,
             (_, None) => format!("{algorithm} is no algorithm of this backend"),
             (_, Some(found)) => format!("{algorithm} {}", found.obstacle(meta)?),
         };

@@ -57,6 +57,17 @@ pub(super) fn named(algorithm: &'static Algorithm, meta: &Meta) -> Plan {
     Plan { steps, opinions: Vec::new() }
 }
 
+/// Variables beyond which `auto` does not even try: with 60 000 (ribs with bounds only) NLopt's limited-memory methods stop at
+/// wrong points after minutes.
+const MOST_VARIABLES: usize = 20_000;
+
+/// Why `auto` leaves the problem to others, if it does.
+pub(super) fn too_many(meta: &Meta) -> Option<String> {
+    let count = meta.variables();
+    let why = "beyond that NLopt's methods stop far from the answer, use the argmin backend";
+    (count > MOST_VARIABLES).then(|| format!("auto is for up to {MOST_VARIABLES} variables, and there are {count}; {why}"))
+}
+
 /// The plan of `auto`. An algorithm that cannot take the problem, or would be slow on it, is left out.
 pub(super) fn automatic(meta: &Meta) -> Plan {
     let wanted = if meta.rows() == 0 { BOUNDS } else { ROWS };

@@ -220,7 +220,8 @@ pub struct RibLimits {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub sag_ratio: Option<f64>,
     /// Slenderness: h over b of rectangles and superellipses; of webs of H beams and walls of boxes 5 times, of flanges 4
-    /// times (boxes: 5), of webs of tees 2 times, of diameters of tubes 10 times this
+    /// times (boxes: 5), of webs of tees 2 times, of diameters of tubes 10 times this; h over b of H beams, tees and boxes half
+    /// of it
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub slenderness: Option<f64>,
     /// Largest change of height per length of rib

@@ -1,4 +1,5 @@
 use super::*;
+use geo::{Area, Centroid};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -40,6 +41,17 @@ proptest! {
         prop_assert!((moved.ix - own.ix - own.area * dy * dy).abs() < 1e-9);
         prop_assert!((moved.iy - own.iy - own.area * dx * dx).abs() < 1e-9);
         prop_assert!((moved.ixy - own.ixy - own.area * dx * dy).abs() < 1e-9);
+    }
+
+    #[test]
+    fn area_and_centroid_as_geo(ring in ring()) {
+        let ours = with_hole(&ring);
+        let line = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| (x, y)).collect::<geo::LineString>();
+        let theirs = geo::Polygon::new(line(&ours.rings()[0]), ours.holes().iter().map(line).collect());
+        let centroid = theirs.centroid().unwrap();
+        let own = ours.properties();
+        prop_assert!((own.area - theirs.unsigned_area()).abs() < 1e-13 * own.area.max(1.0));
+        prop_assert!((own.centroid[0] - centroid.x()).hypot(own.centroid[1] - centroid.y()) < 1e-12);
     }
 
     #[test]

@@ -31,7 +31,7 @@ fn obj_knows_groups_negative_numbers_and_long_lines() {
 fn obj_errors_name_the_line() {
     assert_eq!(obj("v 0 0 0\nv 1 x 0\n").unwrap_err(), "line 2: expected a coordinate, found 'x'");
     assert_eq!(obj("v 0 0 0\nf 1 2 3\n").unwrap_err(), "line 2: vertex 2 is not there: 1 vertices come before this line");
-    assert_eq!(obj("v 0 0 nan").unwrap_err(), "line 1: the point (0, 0, NaN) is not finite, or larger than 1e100");
+    assert_eq!(obj("v 0 0 nan").unwrap_err(), "line 1: the point (0.0, 0.0, NaN) is not finite, or larger than 1e100");
 }
 
 #[test]

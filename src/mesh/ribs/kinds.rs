@@ -84,13 +84,13 @@ impl SectionKind {
             SectionKind::HBeam => Row {
                 name: "h-beam",
                 dimensions: FLANGED,
-                limits: &[("web-slenderness", "hw <= 5*slenderness*tw"), FLANGE, WEB_THICKNESS, FLANGE_THICKNESS],
+                limits: &[("web-slenderness", "hw <= 5*slenderness*tw"), FLANGE, PROPORTION, WEB_THICKNESS, FLANGE_THICKNESS],
                 thickness: 0.006,
             },
             SectionKind::Tee => Row {
                 name: "tee",
                 dimensions: FLANGED,
-                limits: &[("web-slenderness", "hw <= 2*slenderness*tw"), FLANGE, WEB_THICKNESS, FLANGE_THICKNESS],
+                limits: &[("web-slenderness", "hw <= 2*slenderness*tw"), FLANGE, PROPORTION, WEB_THICKNESS, FLANGE_THICKNESS],
                 thickness: 0.006,
             },
             SectionKind::Box => Row {
@@ -104,6 +104,7 @@ impl SectionKind {
                 limits: &[
                     ("web-slenderness", "h <= 5*slenderness*tw"),
                     ("flange-slenderness", "b <= 5*slenderness*tf"),
+                    PROPORTION,
                     WEB_THICKNESS,
                     ("flange-thickness", "tf >= thickness"),
                 ],
@@ -134,5 +135,7 @@ impl SectionKind {
 const FLANGED: &[Default] =
     &[("tw", 0.004, 0.05, 0.01), ("hw", 0.04, 1.5, 0.3), ("b", 0.03, 0.5, 0.15), ("tf", 0.004, 0.05, 0.015)];
 const FLANGE: Limit = ("flange-slenderness", "b <= 4*slenderness*tf");
+/// Against lateral buckling.
+const PROPORTION: Limit = ("proportion", "h <= 0.5*slenderness*b");
 const WEB_THICKNESS: Limit = ("web-thickness", "tw >= thickness");
 const FLANGE_THICKNESS: Limit = ("flange-thickness", "tw <= tf");

@@ -48,7 +48,7 @@ pub struct Options {
     /// Largest sag is span over this.
     pub sag_ratio: f64,
     /// Rectangle: h ≤ this·b; superellipse alike. Webs of H beams and walls of boxes at most 5 × this, flanges 4 × (of boxes 5 ×), webs of
-    /// tees 2 ×, diameters of tubes 10 × this, of their thickness.
+    /// tees 2 ×, diameters of tubes 10 × this, of their thickness; heights of H beams, tees and boxes half this, of their width.
     pub slenderness: f64,
     /// Largest change of height per length of rib.
     pub taper_slope: f64,

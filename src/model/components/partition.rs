@@ -1,5 +1,7 @@
 //! Union–find over what couples variables.
 
+use crate::model::Pattern;
+
 /// Variables and rows by component; components are numbered by their smallest variable.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Partition {
@@ -21,13 +23,15 @@ impl Partition {
         couplings: impl Iterator<Item = &'a [u32]>,
     ) -> Option<Partition> {
         let mut sets = Sets::new(variables);
-        couplings.chain(rows.clone()).for_each(|members| sets.join(members));
-        let (component, count) = sets.numbered();
-        let of_rows = rows.map(|members| members.first().map(|&j| component[j as usize]));
-        let of_rows: Vec<u32> = of_rows.collect::<Option<_>>()?;
-        let (variable_offsets, variables, place) = sorted(&component, count);
-        let (row_offsets, rows, row_place) = sorted(&of_rows, count);
-        Some(Partition { variable_offsets, variables, row_offsets, rows, component, place, row_place })
+        couplings.for_each(|members| sets.join(members));
+        sets.partition(rows)
+    }
+
+    /// The finest partition in which every row of the Jacobian and every entry of the Hessian stays within one component.
+    pub fn of_patterns(jacobian: &Pattern, hessian: &Pattern) -> Option<Partition> {
+        let mut sets = Sets::new(hessian.rows());
+        hessian.iter().for_each(|(i, j)| sets.join(&[i as u32, j as u32]));
+        sets.partition((0..jacobian.rows()).map(|i| jacobian.row(i)))
     }
 
     /// Number of components.
@@ -118,6 +122,17 @@ impl Sets {
             self.parent[high as usize] = low;
             kept = low;
         }
+    }
+
+    /// The sets, those joined that rows hold together. `None` where a row has no variables.
+    fn partition<'a>(mut self, rows: impl Iterator<Item = &'a [u32]> + Clone) -> Option<Partition> {
+        rows.clone().for_each(|members| self.join(members));
+        let (component, count) = self.numbered();
+        let of_rows = rows.map(|members| members.first().map(|&j| component[j as usize]));
+        let of_rows: Vec<u32> = of_rows.collect::<Option<_>>()?;
+        let (variable_offsets, variables, place) = sorted(&component, count);
+        let (row_offsets, rows, row_place) = sorted(&of_rows, count);
+        Some(Partition { variable_offsets, variables, row_offsets, rows, component, place, row_place })
     }
 
     /// The number of each variable's set, in order of smallest members, and how many there are.

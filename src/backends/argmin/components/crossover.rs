@@ -177,10 +177,12 @@ impl Crossover {
         true
     }
 
-    /// Whether the limits left out hold; slacks of free rows follow their rows.
+    /// Whether the limits left out hold, rows within rounding; slacks of free rows follow their rows.
     fn is_inside(&mut self, frame: &Frame<'_>) -> bool {
         for i in (0..frame.m).filter(|&i| self.sides[frame.n + i] == Side::Free) {
-            self.w[frame.n + i] = frame.rows[i];
+            let (row, lower, upper) = (frame.rows[i], frame.lower[frame.n + i], frame.upper[frame.n + i]);
+            let inside = row.max(lower).min(upper);
+            self.w[frame.n + i] = if (row - inside).abs() <= ACCEPTED * row.abs().max(1.0) { inside } else { row };
         }
         self.w.iter().zip(&frame.lower).zip(&frame.upper).all(|((w, lower), upper)| lower <= w && w <= upper)
     }

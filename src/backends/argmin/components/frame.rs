@@ -5,9 +5,13 @@
 //! quotients, of which structural formulas are made, become linear or nearly so, sums of them convex. The other variables are scaled by powers of two.
 
 use super::arena::{Header, Piece};
+use super::barrier::PUSH;
+use crate::backends::argmin::interior_point::pushed;
 use crate::model::Meta;
 use crate::model::components::{Components, Local, Partition};
 
+/// Scaled multipliers smaller than this hold nothing.
+const IDLE: f64 = 1e-10;
 /// Row gradients smaller than this are no scale.
 const FLAT: f64 = 1e-12;
 
@@ -300,14 +304,12 @@ impl<'m> Frame<'m> {
         let x: Vec<f64> = self.partition.variables(piece.component).iter().map(|&j| self.start[j as usize]).collect();
         let y: Vec<f64> = self.partition.rows(piece.component).iter().map(|&i| multipliers[i as usize]).collect();
         self.take(piece, &x, &y);
-        for (i, &y) in y.iter().enumerate() {
+        for i in 0..self.m {
             let at = self.n + i;
-            piece.w[at] = if y > 0.0 {
-                self.upper[at]
-            } else if y < 0.0 {
-                self.lower[at]
-            } else {
-                self.rows[i]
+            piece.w[at] = match piece.y[i] {
+                y if y > IDLE => self.upper[at],
+                y if y < -IDLE => self.lower[at],
+                _ => pushed(self.rows[i], self.lower[at], self.upper[at], PUSH),
             };
         }
         for (at, &w) in piece.w.iter().enumerate() {

@@ -4,7 +4,7 @@
 //! cannot do it leaves to its big relative: no restoration, no equalities, no saddles.
 
 use super::arena::{Phase, Piece};
-use super::barrier::{distances, force};
+use super::barrier::{PUSH, distances, force};
 use super::crossover::Crossover;
 use super::frame::Frame;
 use super::newton::Newton;
@@ -17,8 +17,6 @@ const LAST_BARRIER: f64 = 1e-11;
 const LINEAR_DECREASE: f64 = 0.2;
 const SUPERLINEAR_DECREASE: f64 = 1.5;
 const BARRIER_TOLERANCE: f64 = 10.0;
-/// Push of the start off its bounds.
-const PUSH: f64 = 1e-2;
 /// The scaled optimality error that ends the iterations.
 const TOLERANCE: f64 = 1e-10;
 /// From this barrier parameter on the active set is tried.
