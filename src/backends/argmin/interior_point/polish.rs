@@ -10,7 +10,7 @@ use crate::model::EvaluationError;
 
 /// Newton steps at the most; on trial.
 const MOST_STEPS: usize = 10;
-const TRIAL_STEPS: usize = 4;
+const TRIAL_STEPS: usize = 5;
 /// Optimality errors below this are rounding.
 const ROUNDING: f64 = 1e-14;
 /// At which optimality error a large problem is polished on trial first, and by which factor lower each time again: where a few
@@ -41,6 +41,13 @@ enum Doubt {
     Compare,
     /// Hold them.
     Hold,
+}
+
+/// Whether the active set is a guess, whose system may well be singular.
+#[derive(Clone, Copy, PartialEq)]
+enum Certainty {
+    Guess,
+    Final,
 }
 
 impl Engine<'_> {
@@ -93,7 +100,7 @@ impl Engine<'_> {
         for _ in 0..TRIAL_STEPS {
             hold(&self.form, &sides, &mut point);
             point.evaluate(&mut self.form)?;
-            if !self.active_set_step(&sides, &mut point)? {
+            if !self.active_set_step(&sides, &mut point, Certainty::Guess)? {
                 return Ok(None);
             }
             if settle(&self.form, &sides, &mut point, &mut self.right) <= TOLERANCE {
@@ -111,7 +118,7 @@ impl Engine<'_> {
         hold(&self.form, sides, &mut point);
         point.evaluate(&mut self.form)?;
         for _ in 0..MOST_STEPS {
-            if !self.active_set_step(sides, &mut point)? {
+            if !self.active_set_step(sides, &mut point, Certainty::Final)? {
                 break;
             }
             let error = settle(&self.form, sides, &mut point, &mut self.right);
@@ -152,8 +159,8 @@ impl Engine<'_> {
         }
     }
 
-    /// One Newton step of variables and multipliers. `false`: there is none.
-    fn active_set_step(&mut self, sides: &[Side], point: &mut Iterate) -> Result<bool, EvaluationError> {
+    /// One Newton step of variables and multipliers, regularised where there is none without. `false`: there is none.
+    fn active_set_step(&mut self, sides: &[Side], point: &mut Iterate, certain: Certainty) -> Result<bool, EvaluationError> {
         let Self { form, kkt, hessian, sigma, right, direction, .. } = self;
         let n = form.variables();
         form.hessian(&point.w, &point.y, hessian)?;
@@ -162,7 +169,7 @@ impl Engine<'_> {
         let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
         let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
-        let regular = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0);
+        let regular = certain == Certainty::Final && kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0);
         if !regular && kkt.factor(blocks, REGULARISATION, REGULARISATION).is_err() {
             return Ok(false);
         }

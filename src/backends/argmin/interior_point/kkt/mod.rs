@@ -230,3 +230,6 @@ impl Kkt {
         self.full.as_ref().ok_or(FactorizationError::Singular)?.solve(&self.right, &mut self.solution)
     }
 }
+
+#[cfg(test)]
+mod tests;
