@@ -22,7 +22,7 @@ pub enum SectionKind {
 }
 
 /// A dimension's name, default lower and upper bound and start, in metres.
-type Default = (&'static str, f64, f64, f64);
+type Dimension = (&'static str, f64, f64, f64);
 
 /// A limit's name and requirement.
 type Limit = (&'static str, &'static str);
@@ -30,7 +30,7 @@ type Limit = (&'static str, &'static str);
 /// A row of the table of kinds.
 struct Row {
     name: &'static str,
-    dimensions: &'static [Default],
+    dimensions: &'static [Dimension],
     limits: &'static [Limit],
     thickness: f64,
 }
@@ -59,7 +59,7 @@ impl SectionKind {
 
     /// Its dimensions with default bounds and starts, in metres.
     pub(super) fn dimensions(self) -> Vec<Bounds> {
-        let bounds = |&(name, lower, upper, start): &Default| Bounds { dimension: name.into(), lower, upper, start };
+        let bounds = |&(name, lower, upper, start): &Dimension| Bounds { dimension: name.into(), lower, upper, start };
         self.row().dimensions.iter().map(bounds).collect()
     }
 
@@ -132,7 +132,7 @@ impl SectionKind {
     }
 }
 
-const FLANGED: &[Default] =
+const FLANGED: &[Dimension] =
     &[("tw", 0.004, 0.05, 0.01), ("hw", 0.04, 1.5, 0.3), ("b", 0.03, 0.5, 0.15), ("tf", 0.004, 0.05, 0.015)];
 const FLANGE: Limit = ("flange-slenderness", "b <= 4*slenderness*tf");
 /// Against lateral buckling.
