@@ -181,9 +181,9 @@ impl Hessian {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
         let mut part = vec![0.0; pattern.len()];
-        let parts: [(f64, fn(f64) -> bool); 3] = [(1.0, |_| false), (0.0, |y| y > 0.0), (0.0, |y| y < 0.0)];
-        for (weight, keep) in parts {
-            let chosen: Vec<f64> = y.iter().map(|&y| if keep(y) { y } else { 0.0 }).collect();
+        // The objective, rows that push one way, rows that push the other.
+        for (weight, sign) in [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+            let chosen: Vec<f64> = y.iter().map(|&y| if y * sign > 0.0 { y } else { 0.0 }).collect();
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
                 let entry = part[at] * (point.d[row] * point.d[column] / point.scale());

@@ -63,7 +63,7 @@ impl<W: Write> Bar<W> {
 
 fn line(progress: &Progress<'_>) -> String {
     let name = progress.table.file_name().unwrap_or_default().to_string_lossy();
-    let part = |of: u64| if progress.size == 0 { of } else { (progress.read.min(progress.size) * of) / progress.size };
+    let part = |of: u64| (progress.read.min(progress.size) * of).checked_div(progress.size).unwrap_or(of);
     let bar: String = (0..WIDTH).map(|at| if at < part(WIDTH) { '#' } else { '.' }).collect();
     format!("reading {name} [{bar}] {:>3} %", part(100))
 }
