@@ -95,10 +95,12 @@ impl SymmetricSolver {
             }
         }
         let matrix = CscMatrix { n, col_ptr: starts, row_idx: rows, values: vec![0.0; columns.len()] };
-        let method = match n {
-            ..=dense::LARGEST_ORDER => Method::Dense(Box::new(DenseSolver::new(n))),
-            ..=LARGEST_AUTOMATIC => Method::Sparse(Box::default()),
-            _ => Method::Sparse(Box::new(Solver::new().with_ordering(OrderingMethod::Amd))),
+        let method = if n <= dense::LARGEST_ORDER {
+            Method::Dense(Box::new(DenseSolver::new(n)))
+        } else if n <= LARGEST_AUTOMATIC {
+            Method::Sparse(Box::default())
+        } else {
+            Method::Sparse(Box::new(Solver::new().with_ordering(OrderingMethod::Amd)))
         };
         Ok(SymmetricSolver { matrix, places, method })
     }

@@ -76,8 +76,9 @@ impl Columns {
         let mut starts = vec![0; order + 1];
         let each = |visit: &mut dyn FnMut(usize, usize, usize)| {
             for row in 0..order {
-                for at in offsets[row]..offsets[row + 1] {
-                    visit(row, columns[at] as usize, at);
+                let own = offsets[row]..offsets[row + 1];
+                for (at, &column) in own.clone().zip(&columns[own]) {
+                    visit(row, column as usize, at);
                 }
             }
         };

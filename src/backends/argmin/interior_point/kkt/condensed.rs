@@ -118,8 +118,8 @@ impl Condensed {
             solution.iter_mut().zip(&correction).for_each(|(x, step)| *x += step);
             system.residual(right, solution, &mut residual);
             let left = norm_max(&residual);
-            // A step that makes it worse (or a NaN) is taken back.
-            if !(left < least) {
+            // A step that makes it worse is taken back.
+            if left.is_nan() || left >= least {
                 solution.iter_mut().zip(&correction).for_each(|(x, step)| *x -= step);
                 break;
             }
