@@ -4,11 +4,12 @@
 //! linear least squares problems with nonnegative variables") on the augmented system, which stays sparse where BᵀB does not.
 //! Dependent columns are tamed by a proximal term whose bias the outer repetitions remove.
 
+use super::active_set::{self, ActiveSet};
 use super::matrix::Symmetric;
 use crate::linear_algebra::FactorizationError;
 
 /// The proximal weight ε², relative to columns of size one: below the squares of the distances that decide.
-const PROXIMAL: f64 = 1e-13;
+pub(super) const PROXIMAL: f64 = 1e-13;
 const REPETITIONS: usize = 12;
 
 /// One column of B with its sign and weight.
@@ -25,21 +26,32 @@ pub(super) struct Column {
 
 /// The minimiser y.
 pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
-    repeated(g, columns, Symmetric::new)
+    if active_set::fits(g.len(), columns.len()) {
+        let mut set = ActiveSet::new(g, columns);
+        if let Ok(y) = repeated(columns.len(), |centre| set.solve(centre).ok_or(())) {
+            return Ok(y);
+        }
+    }
+    pivoted(g, columns, Symmetric::new)
 }
 
 /// The same for one of very many small systems.
 pub(super) fn solve_one_of_many(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
-    repeated(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
+    pivoted(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
 }
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
 
-fn repeated(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
+fn pivoted(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
     let mut pivoting = Pivoting::new(g, columns, build)?;
-    let mut y = vec![0.0; columns.len()];
+    repeated(columns.len(), |centre| pivoting.solve(centre))
+}
+
+/// Moves the proximal term's centre after the minimiser until both are the same.
+fn repeated<E>(columns: usize, mut solve: impl FnMut(&[f64]) -> Result<Vec<f64>, E>) -> Result<Vec<f64>, E> {
+    let mut y = vec![0.0; columns];
     for _ in 0..REPETITIONS {
-        let next = pivoting.solve(&y)?;
+        let next = solve(&y)?;
         let moved = next.iter().zip(&y).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
         let size = next.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
         y = next;

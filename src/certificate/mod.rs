@@ -2,6 +2,7 @@
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
+mod active_set;
 mod candidates;
 mod curvature;
 mod descent;
