@@ -9,7 +9,7 @@ use ribopt::backends::argmin::Argmin;
 use ribopt::backends::{Backend, Iteration, Job, Solution};
 use ribopt::certificate::{self, Tolerances};
 use ribopt::model::derivative_check::derivative_check;
-use ribopt::model::{Budget, Class, EvaluationError, Meta, Model, RibModel, assemble};
+use ribopt::model::{Budget, Class, Model, Rebounded, RibModel, assemble};
 
 const RECTANGLE: &str = "
 [[constraints]]
@@ -86,40 +86,13 @@ fn solve_from(model: &dyn Model, start: &[f64], start_multipliers: Option<&[f64]
     Argmin.solve(model, &mut job)
 }
 
-/// A model that keeps it to itself that it falls apart.
-struct Whole<'a>(&'a RibModel);
-
-impl Model for Whole<'_> {
-    fn meta(&self) -> &Meta {
-        self.0.meta()
-    }
-
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.0.objective(x)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.0.gradient(x, gradient)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.0.constraints(x, values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.0.jacobian(x, values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.0.hessian(x, weight, y, values)
-    }
-}
-
 #[test]
 fn the_joined_solution_is_certified_and_equals_that_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let model = network(60, false, folder.path());
-    let (apart, whole) = (solve(&model), solve(&Whole(&model)));
+    // Between its own bounds it is the same model, but does not tell that it falls apart.
+    let joined = Rebounded::new(&model, model.meta().lower.clone(), model.meta().upper.clone());
+    let (apart, whole) = (solve(&model), solve(&joined));
     assert!(apart.message.contains("60 independent components"), "{}", apart.message);
     let judge = |solution: &Solution| {
         certificate::certify(&model, Class::default(), &solution.x, solution.multipliers.as_deref(), Tolerances::default())
@@ -182,4 +155,26 @@ fn a_component_is_a_model_with_exact_derivatives_and_its_dense_twin_agrees() {
         part.hessian(x, 1.3, &y, &mut sparse).unwrap();
         assert!(meta.hessian.iter().zip(&sparse).all(|((i, j), value)| close(dense[i * n + j], *value)));
     }
+}
+
+#[test]
+fn what_rounding_leaves_of_a_zero_hides_no_curvature_of_a_small_piece() {
+    let folder = tempfile::tempdir().unwrap();
+    // Pairs by themselves; along x + y = 1 the objective bends by −1 times `sign` each.
+    let certified = |sign: &str| {
+        let mut text = format!("minimize = 'sum({sign}(0.5*x^2 - 2*x - y^2))'\n");
+        text += "[variables]\nx = { size = 101, start = 0, lower = -1, upper = 2 }\ny = { size = 101, start = 1, lower = -1, upper = 2 }\n";
+        for k in 1..=101 {
+            write!(text, "[[constraints]]\nname = 'r{k}'\nrequire = 'x[{k}] + y[{k}] == 1'\n").unwrap();
+        }
+        let file = folder.path().join("pairs.toml");
+        fs::write(&file, text).unwrap();
+        let input = ribopt::input::read(&file).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let model = assemble(&Arc::new(input.problem)).unwrap();
+        let x: Vec<f64> = model.meta().start.iter().map(|&start| if start == 0.0 { 1e-15 } else { start }).collect();
+        certificate::certify(&model, Class::default(), &x, None, Tolerances::default()).unwrap()
+    };
+    assert!(certified("-").certified);
+    let maximum = certified("");
+    assert!(!maximum.certified && maximum.negative_curvature, "{maximum:?}");
 }

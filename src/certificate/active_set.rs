@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::least_squares::{Column, PROXIMAL};
+use super::least_squares::{Column, PROXIMAL, residual};
 
 /// Above this many variables a dense factorisation costs more than the sparse one.
 const MOST_VARIABLES: usize = 256;
@@ -77,16 +77,10 @@ impl<'a> ActiveSet<'a> {
 
     /// The column not in use that helps most.
     fn entering(&self, centre: &[f64], refused: &[bool]) -> Option<usize> {
-        let mut residual = self.g.to_vec();
-        for &k in &self.basic {
-            for &(row, value) in &self.columns[k].entries {
-                residual[row as usize] += value * self.y[k];
-            }
-        }
+        let residual = residual(self.g, self.columns, &self.y);
         let gain = |k: usize| {
             let column = &self.columns[k];
-            let slope: f64 = column.entries.iter().map(|&(row, value)| value * residual[row as usize]).sum();
-            -(slope - PROXIMAL * centre[k]) * column.sign
+            -(column.dot(&residual) - PROXIMAL * centre[k]) * column.sign
         };
         let flat = FLAT * self.basic.iter().fold(1.0, |most: f64, &k| most.max(self.y[k].abs()));
         let mut used = refused.to_vec();

@@ -37,13 +37,6 @@ pub(super) struct Active<'a> {
     pub(super) multipliers: &'a Multipliers,
 }
 
-impl Active<'_> {
-    /// The rows rested on.
-    pub(super) fn held(&self, point: &Point<'_>) -> Vec<usize> {
-        (0..self.rows.len()).filter(|&i| self.rows[i] != Side::None && point.slopes[i] > 0.0).collect()
-    }
-}
-
 /// Whether the gradients of the active limits are linearly dependent.
 pub(super) fn is_dependent(point: &Point<'_>, active: &Active<'_>) -> bool {
     let choice = Choice::all(point, active);
@@ -81,13 +74,25 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    fn all(point: &Point<'_>, active: &Active<'_>) -> Choice {
+    pub(super) fn all(point: &Point<'_>, active: &Active<'_>) -> Choice {
         let mut choice = Choice::default();
         choice.choose(point, active, 0..active.bounds.len(), 0..active.rows.len());
         choice
     }
 
-    /// Sorts some variables and rows.
+    /// Free variables and those on bounds that hardly push, ascending.
+    pub(super) fn loose_variables(&self) -> Vec<usize> {
+        let mut loose = [&self.free[..], &self.weak_bounds].concat();
+        loose.sort_unstable();
+        loose
+    }
+
+    /// Equalities and active rows that push.
+    pub(super) fn strict_rows(&self) -> Vec<usize> {
+        self.held.iter().copied().filter(|i| self.weak_rows.binary_search(i).is_err()).collect()
+    }
+
+    /// Sorts some variables and rows, given ascending.
     pub(super) fn choose(
         &mut self,
         point: &Point<'_>,

@@ -5,12 +5,12 @@
 //! directions that do bend, by chord steps with [D∇²L D/σ + |…| + I, Aᵀ; A, −δI]; the first change of the objective that rounding
 //! and the accepted slope do not explain decides.
 
-use super::curvature::{Active, Hessian};
+use super::Tolerances;
+use super::curvature::{Active, Choice, Hessian};
 use super::kkt::Kkt;
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::trial::Trial;
-use super::{Side, Tolerances};
 use crate::linear_algebra::FactorizationError;
 use crate::model::Model;
 
@@ -33,7 +33,8 @@ pub(super) fn find(
     hessian: &Hessian,
     tolerances: &Tolerances,
 ) -> Result<Option<Vec<f64>>, FactorizationError> {
-    let (free, held) = (loose_variables(point, active), strict_rows(point, active));
+    let choice = Choice::all(point, active);
+    let (free, held) = (choice.loose_variables(), choice.strict_rows());
     let most = DIRECTIONS.min(WORK / (free.len() + held.len() + 1));
     if free.is_empty() || most == 0 {
         return Ok(None);
@@ -46,28 +47,6 @@ pub(super) fn find(
     kkt.factor_proximal()?;
     let walk = Walk { point, multipliers: active.multipliers, tolerances, free: &free, held: &held, kkt: &kkt };
     Ok(directions.iter().find_map(|direction| walk.along(direction, 1.0).or_else(|| walk.along(direction, -1.0))))
-}
-
-/// Free variables and those on bounds that hardly push.
-pub(super) fn loose_variables(point: &Point<'_>, active: &Active<'_>) -> Vec<usize> {
-    let push = |j: usize| (active.multipliers.bounds[j] * point.sizes[j]).abs();
-    let is_loose = |&j: &usize| match active.bounds[j] {
-        Side::None => true,
-        Side::Equal => false,
-        Side::Lower | Side::Upper => push(j) <= 1e-6 * point.scale(),
-    };
-    (0..active.bounds.len()).filter(is_loose).collect()
-}
-
-/// Equalities and active rows that push.
-pub(super) fn strict_rows(point: &Point<'_>, active: &Active<'_>) -> Vec<usize> {
-    let push = |i: usize| (active.multipliers.rows[i] * point.slopes[i]).abs();
-    let is_strict = |&i: &usize| match active.rows[i] {
-        Side::None => false,
-        Side::Equal => point.slopes[i] > 0.0,
-        Side::Lower | Side::Upper => point.slopes[i] > 0.0 && push(i) > 1e-6 * point.scale(),
-    };
-    (0..active.rows.len()).filter(is_strict).collect()
 }
 
 struct Walk<'w, 'p> {
@@ -104,12 +83,7 @@ impl Walk<'_, '_> {
     /// Chord steps towards the active limits and down the directions that bend, inside the bounds.
     fn corrected(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
         let (point, meta) = (self.point, self.point.meta());
-        let clamp = |x: &mut Vec<f64>| {
-            for (x, (lower, upper)) in x.iter_mut().zip(meta.lower.iter().zip(&meta.upper)) {
-                *x = x.max(*lower).min(*upper);
-            }
-        };
-        clamp(&mut x);
+        meta.clamp(&mut x);
         for _ in 0..CORRECTIONS {
             let right = self.residual(&x)?;
             let step = self.kkt.solve(&right).ok()?;
@@ -118,7 +92,7 @@ impl Walk<'_, '_> {
                 x[j] += step * point.sizes[j];
                 longest = longest.max(step.abs());
             }
-            clamp(&mut x);
+            meta.clamp(&mut x);
             if !longest.is_finite() {
                 return None;
             }

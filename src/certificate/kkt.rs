@@ -63,8 +63,7 @@ impl<'a> Kkt<'a> {
         let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
         let (mut rows, mut slopes) = (Vec::new(), Vec::with_capacity(held.len()));
         for (k, &i) in held.iter().enumerate() {
-            let entry = |at: usize| (point.jacobian[at] * point.sizes[pattern.columns[at] as usize]).abs();
-            let slope = pattern.range(i).map(entry).fold(0.0, f64::max);
+            let slope = point.slope_in_sizes(i);
             slopes.push(slope);
             for at in pattern.range(i) {
                 let j = pattern.columns[at] as usize;

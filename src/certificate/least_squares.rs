@@ -24,6 +24,24 @@ pub(super) struct Column {
     pub(super) basic: bool,
 }
 
+impl Column {
+    /// bᵀr
+    pub(super) fn dot(&self, residual: &[f64]) -> f64 {
+        self.entries.iter().map(|&(row, value)| value * residual[row as usize]).sum()
+    }
+}
+
+/// g + By
+pub(super) fn residual(g: &[f64], columns: &[Column], y: &[f64]) -> Vec<f64> {
+    let mut residual = g.to_vec();
+    for (column, &y) in columns.iter().zip(y) {
+        for &(row, value) in &column.entries {
+            residual[row as usize] += value * y;
+        }
+    }
+    residual
+}
+
 /// The minimiser y.
 pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
     if active_set::fits(g.len(), columns.len()) {
@@ -135,16 +153,10 @@ impl<'a> Pivoting<'a> {
 
     /// Columns on the wrong side: basic with the wrong sign, or at zero although moving would help.
     fn wrong(&self, y: &[f64], centre: &[f64]) -> Vec<usize> {
-        let mut residual = self.g.to_vec();
-        for (column, &y) in self.columns.iter().zip(y) {
-            for &(row, value) in &column.entries {
-                residual[row as usize] += value * y;
-            }
-        }
+        let residual = residual(self.g, self.columns, y);
         let is_wrong = |&k: &usize| {
             let column = &self.columns[k];
-            let slope: f64 = column.entries.iter().map(|&(row, value)| value * residual[row as usize]).sum();
-            let slope = (slope - PROXIMAL * centre[k]) * column.sign;
+            let slope = (column.dot(&residual) - PROXIMAL * centre[k]) * column.sign;
             if self.basic[k] { y[k] * column.sign < -1e-15 } else { slope < -1e-15 }
         };
         (0..self.columns.len()).filter(|&k| self.columns[k].sign != 0.0).filter(is_wrong).collect()

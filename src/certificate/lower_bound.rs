@@ -16,7 +16,8 @@ use crate::model::{EvaluationError, Model};
 pub fn lower_bound(model: &dyn Model, x: &[f64], y: &[f64]) -> Result<Option<f64>, EvaluationError> {
     let origin = Origin::new(model);
     let meta = model.meta();
-    let inside: Vec<f64> = x.iter().zip(meta.lower.iter().zip(&meta.upper)).map(|(x, (l, u))| x.max(*l).min(*u)).collect();
+    let mut inside = x.to_vec();
+    meta.clamp(&mut inside);
     let point = Point::new(&origin, &inside)?;
     let usable = |(i, &y): (usize, &f64)| if y != 0.0 && point.row_limit(i, y).is_finite() { y } else { 0.0 };
     let y: Vec<f64> = y.iter().enumerate().map(usable).collect();

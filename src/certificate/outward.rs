@@ -3,8 +3,7 @@
 //! second-order test.
 
 use super::Tolerances;
-use super::curvature::{Active, Hessian};
-use super::descent::{loose_variables, strict_rows};
+use super::curvature::{Active, Choice, Hessian};
 use super::kkt::Kkt;
 use super::multipliers::Multipliers;
 use super::point::Point;
@@ -29,8 +28,12 @@ const CORRECTIONS: usize = 3;
 /// farthest first.
 pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, far: &[(f64, usize)], tolerances: &Tolerances) -> Vec<usize> {
     let far: Vec<usize> = far.iter().filter(|(way, _)| *way > FAR).map(|f| f.1).collect();
-    let (free, touched) = (loose_variables(point, active), active.held(point));
-    if far.is_empty() || free.len() + touched.len() > LARGEST {
+    if far.is_empty() {
+        return Vec::new();
+    }
+    let choice = Choice::all(point, active);
+    let free = choice.loose_variables();
+    if free.len() + choice.held.len() > LARGEST {
         return Vec::new();
     }
     // Steps in proportion: a variable that has become tiny is measured by itself.
@@ -39,8 +42,9 @@ pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, far: &[(f64, usi
     let noise = noise(point, &hessian);
     // Far out, multipliers may be too small to tell which rows push, and all bends small beside σ.
     let shapes = [hessian.normalised(), hessian];
-    let ways =
-        [touched, strict_rows(point, active)].into_iter().flat_map(|held| shapes.iter().map(move |shape| (held.clone(), shape)));
+    let ways = [choice.held.clone(), choice.strict_rows()]
+        .into_iter()
+        .flat_map(|held| shapes.iter().map(move |shape| (held.clone(), shape)));
     let powers = ways.into_iter().find_map(|(held, shape)| {
         let directions = Kkt::new(&own, shape, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
         let curve = Curve { point, multipliers: active.multipliers, held: &held, noise, tolerances };

@@ -143,10 +143,11 @@ impl Piece {
     fn add_rows(&mut self, point: &Point<'_>, free: &[usize], held: &[usize]) {
         let (order, pattern) = (self.pivots.len(), &point.meta().jacobian);
         for (k, &i) in held.iter().enumerate() {
+            let slope = point.slope_in_sizes(i);
             for at in pattern.range(i) {
                 let j = pattern.columns[at] as usize;
                 if let Ok(column) = free.binary_search(&j) {
-                    self.matrix[(free.len() + k) * order + column] = point.jacobian[at] * point.d[j] / point.slopes[i];
+                    self.matrix[(free.len() + k) * order + column] = point.jacobian[at] * point.sizes[j] / slope;
                 }
             }
         }

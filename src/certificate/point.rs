@@ -86,6 +86,13 @@ impl<'a> Point<'a> {
         self.origin.meta()
     }
 
+    /// ‖diag(sizes)·∇c_i‖∞: what the curvature test divides row i by.
+    pub(super) fn slope_in_sizes(&self, i: usize) -> f64 {
+        let pattern = &self.meta().jacobian;
+        let entry = |at: usize| (self.jacobian[at] * self.sizes[pattern.columns[at] as usize]).abs();
+        pattern.range(i).map(entry).fold(0.0, f64::max)
+    }
+
     /// σ, or 1 where every point is stationary.
     pub(super) fn scale(&self) -> f64 {
         if self.sigma > 0.0 { self.sigma } else { 1.0 }

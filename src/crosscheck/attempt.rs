@@ -82,11 +82,8 @@ impl<'a> Referee<'a> {
 
     /// x(z), inside the bounds to the last digit.
     fn outward(&self, z: &[f64]) -> Vec<f64> {
-        let meta = self.task.model.meta();
         let mut x = self.task.substitution.map_or_else(|| z.to_vec(), |other| other.outward(z));
-        for (x, (lower, upper)) in x.iter_mut().zip(meta.lower.iter().zip(&meta.upper)) {
-            *x = x.max(*lower).min(*upper);
-        }
+        self.task.model.meta().clamp(&mut x);
         x
     }
 

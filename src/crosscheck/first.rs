@@ -46,17 +46,13 @@ pub(super) fn answers(referee: &Referee<'_>, contestants: &[Contestant<'_>], obs
 /// Whether its own share of the time ended a run, and nothing else did.
 fn ran_out(referee: &Referee<'_>, answer: &Answer, budget: &Budget<'_>) -> bool {
     answer.solution.termination == Termination::LimitReached
-        && !is_certified(answer)
+        && !answer.is_certified()
         && !referee.clock.is_over()
         && budget.deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }
 
 /// Seconds granted once an answer is certified.
 fn grace(answers: &[Answer]) -> Option<f64> {
-    let seconds = answers.iter().filter(|answer| is_certified(answer)).map(|answer| GRACE * answer.solution.seconds);
+    let seconds = answers.iter().filter(|answer| answer.is_certified()).map(|answer| GRACE * answer.solution.seconds);
     seconds.reduce(f64::min).map(|seconds| seconds.max(PATIENCE))
-}
-
-fn is_certified(answer: &Answer) -> bool {
-    answer.certificate.as_ref().is_some_and(|certificate| certificate.certified)
 }

@@ -72,7 +72,7 @@ fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: 
         restart::improve(referee, contestant, answer);
     }
     let Some(best) = verdict::best(referee, answers).map(|best| answers[best].clone()) else { return };
-    if !best.certificate.as_ref().is_some_and(|certificate| certificate.certified) {
+    if !best.is_certified() {
         return;
     }
     for (k, &contestant) in contestants.iter().enumerate() {
@@ -93,7 +93,7 @@ fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: 
 }
 
 fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
-    let passes = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    let passes = |answer: &Answer| answer.is_certified();
     if let Some(best) = verdict::best(referee, &answers).map(|best| &answers[best]).filter(|best| passes(best)) {
         if let Some((x, conflict)) = contradicted(referee, contestants, best) {
             return verdict::infeasible(referee, answers, x, conflict);

@@ -47,7 +47,7 @@ fn from_seed<'b>(
             break;
         }
         let answer = referee.attempt(contestant, &start, None, budget(), &mut |_| {});
-        let certified = answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+        let certified = answer.is_certified();
         if best.as_ref().is_none_or(|(_, best)| referee.is_better(&answer, best)) {
             best = Some((k, answer));
         }

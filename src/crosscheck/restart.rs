@@ -65,7 +65,7 @@ fn add_effort(to: &mut Answer, from: &Answer) {
 fn is_worth_another_try(referee: &Referee<'_>, answer: &Answer) -> bool {
     let ended = matches!(answer.solution.termination, Termination::Converged | Termination::Failed);
     let runs_away = answer.certificate.as_ref().is_some_and(|certificate| !certificate.runaway.is_empty());
-    let passes = answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    let passes = answer.is_certified();
     ended && !passes && !runs_away && !referee.clock.is_over()
 }
 
@@ -130,9 +130,6 @@ fn beside(referee: &Referee<'_>, x: &[f64], size: f64) -> Vec<f64> {
 }
 
 fn inside(referee: &Referee<'_>, mut x: Vec<f64>) -> Vec<f64> {
-    let meta = referee.task.model.meta();
-    for (x, (lower, upper)) in x.iter_mut().zip(meta.lower.iter().zip(&meta.upper)) {
-        *x = x.max(*lower).min(*upper);
-    }
+    referee.task.model.meta().clamp(&mut x);
     x
 }

@@ -35,9 +35,7 @@ fn projected(referee: &Referee<'_>, x: &[f64], scales: &[f64]) -> Option<Vec<f64
     let (model, meta) = (referee.task.model, referee.task.model.meta());
     let (mut x, mut rows, mut jacobian) = (x.to_vec(), vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
     for _ in 0..STEPS.min(WORK / (jacobian.len() + 1)) {
-        for (x, (lower, upper)) in x.iter_mut().zip(meta.lower.iter().zip(&meta.upper)) {
-            *x = x.max(*lower).min(*upper);
-        }
+        meta.clamp(&mut x);
         model.constraints(&x, &mut rows).ok()?;
         let violation = |i: usize| (meta.row_lower[i] - rows[i]).max(0.0) - (rows[i] - meta.row_upper[i]).max(0.0);
         let worst = (0..rows.len()).max_by(|&a, &b| violation(a).abs().total_cmp(&violation(b).abs()))?;

@@ -2,7 +2,7 @@
 
 use super::Task;
 use super::words;
-use crate::model::{EvaluationError, Model, domain};
+use crate::model::domain;
 
 /// A start outside the domain, and where the run began instead.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ pub struct MovedStart {
 /// the start stays as it is, too: the run will tell the term that has no value.
 pub(super) fn in_domain(task: &Task<'_>) -> Option<MovedStart> {
     let (model, start) = (task.model, task.start);
-    let error = values(model, start).err()?;
+    let error = domain::values(model, start).err()?;
     let x = domain::valid_near(model, start).ok()?;
     let moved = (0..x.len()).filter(|&j| x[j] != start[j]);
     let moves: Vec<String> = moved.map(|j| format!("{} from {} to {:.6}", model.variable_name(j), start[j], x[j])).collect();
@@ -26,11 +26,4 @@ pub(super) fn in_domain(task: &Task<'_>) -> Option<MovedStart> {
         words::list(&moves)
     );
     Some(MovedStart { x, remark })
-}
-
-fn values(model: &dyn Model, x: &[f64]) -> Result<(), EvaluationError> {
-    let meta = model.meta();
-    model.gradient(x, &mut vec![0.0; x.len()])?;
-    model.constraints(x, &mut vec![0.0; meta.rows()])?;
-    model.jacobian(x, &mut vec![0.0; meta.jacobian.len()])
 }

@@ -79,6 +79,13 @@ pub struct Answer {
     pub remarks: Vec<String>,
 }
 
+impl Answer {
+    /// Whether its point passed the certificate.
+    pub fn is_certified(&self) -> bool {
+        self.certificate.as_ref().is_some_and(|certificate| certificate.certified)
+    }
+}
+
 /// How far the backends' answers agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {

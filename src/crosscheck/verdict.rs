@@ -145,7 +145,7 @@ fn agreement(outcome: &Outcome) -> Option<Agreement> {
 
 /// The best rigorous bound any certified answer's multipliers give.
 fn bound(referee: &Referee<'_>, outcome: &Outcome) -> Option<f64> {
-    let certified = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    let certified = |answer: &&Answer| answer.is_certified();
     let bounds = outcome.answers.iter().filter(certified).filter_map(|answer| bound_at(referee, &answer.solution.x));
     bounds.reduce(f64::max)
 }

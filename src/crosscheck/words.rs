@@ -15,12 +15,11 @@ pub(super) fn certified(outcome: &mut Outcome) {
         outcome.remedy = Some("run again with --start from that answer, or with --starts N".into());
     }
     for (k, answer) in outcome.answers.iter().enumerate() {
-        if Some(k) != outcome.best && !answer.certificate.as_ref().is_some_and(|certificate| certificate.certified) {
+        if Some(k) != outcome.best && !answer.is_certified() {
             message.push_str(&format!(" {} did not get there: {}.", answer.backend, why(answer)));
         }
     }
-    let all_pass =
-        outcome.answers.iter().all(|answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified));
+    let all_pass = outcome.answers.iter().all(|answer| answer.is_certified());
     if let Some(agreement) = outcome.agreement.filter(|agreement| all_pass && !agreement.agree) {
         let apart = agreement.objective_difference;
         message.push_str(&format!(" The backends ended at different minima ({apart:.3e} apart in the objective)."));

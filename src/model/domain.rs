@@ -57,8 +57,11 @@ fn scattered(model: &dyn Model, start: &[f64], k: usize, random: &mut SplitMix) 
     (0..start.len()).map(one).collect()
 }
 
-/// Objective, rows and their first derivatives.
-fn values(model: &dyn Model, x: &[f64]) -> Result<(), EvaluationError> {
+/// Computes objective, rows and their first derivatives at x.
+///
+/// # Errors
+/// One of them has no value there.
+pub fn values(model: &dyn Model, x: &[f64]) -> Result<(), EvaluationError> {
     let meta = model.meta();
     let finite = |all: &[f64]| all.iter().all(|value| value.is_finite());
     let (mut gradient, mut rows, mut jacobian) = (vec![0.0; x.len()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);

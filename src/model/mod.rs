@@ -69,6 +69,13 @@ impl Meta {
     pub fn rows(&self) -> usize {
         self.row_lower.len()
     }
+
+    /// Moves x inside the bounds, length n.
+    pub fn clamp(&self, x: &mut [f64]) {
+        for (x, (lower, upper)) in x.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
+            *x = x.max(*lower).min(*upper);
+        }
+    }
 }
 
 /// Values and exact derivatives. Slices have the lengths [`Model::meta`] states; x need not be inside the bounds.

@@ -12,10 +12,10 @@ impl<'a> Rebounded<'a> {
     /// `model` within `lower ≤ x ≤ upper`; its start is moved inside.
     pub fn new(model: &'a dyn Model, lower: Vec<f64>, upper: Vec<f64>) -> Self {
         let mut meta = model.meta().clone();
-        for (x, (l, u)) in meta.start.iter_mut().zip(lower.iter().zip(&upper)) {
-            *x = x.max(*l).min(*u);
-        }
         (meta.lower, meta.upper) = (lower, upper);
+        let mut start = std::mem::take(&mut meta.start);
+        meta.clamp(&mut start);
+        meta.start = start;
         Rebounded { model, meta }
     }
 }

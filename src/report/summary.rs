@@ -118,7 +118,7 @@ fn backend_row(findings: &Findings<'_>, answer: &Answer) -> Vec<String> {
     let measure = |get: fn(&crate::certificate::Certificate) -> f64| {
         answer.certificate.as_ref().map_or("-".into(), |certificate| significant(get(certificate), 2))
     };
-    let certified = answer.certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    let certified = answer.is_certified();
     vec![
         answer.backend.into(),
         solution.algorithm.clone(),

@@ -51,6 +51,10 @@ const LOCAL: Algorithm = Algorithm {
     evaluations_per_variable: None,
 };
 
+/// MMA and its sibling: a dual problem in every step.
+const CONSERVATIVE: Algorithm =
+    Algorithm { rows: Rows::Inequalities, storage: Some(|n, m| 2.0 * n * m), work: Some(|n, m| DUAL_STEPS * n * m), ..LOCAL };
+
 /// All of them, in the order users see. Storage is read off NLopt 2.9.1's sources.
 pub(super) const TABLE: [Algorithm; 11] = [
     Algorithm {
@@ -61,22 +65,8 @@ pub(super) const TABLE: [Algorithm; 11] = [
         work: Some(|n, m| n * n * (n + m)),
         ..LOCAL
     },
-    Algorithm {
-        name: "mma",
-        code: "LD_MMA",
-        rows: Rows::Inequalities,
-        storage: Some(|n, m| 2.0 * n * m),
-        work: Some(|n, m| DUAL_STEPS * n * m),
-        ..LOCAL
-    },
-    Algorithm {
-        name: "ccsaq",
-        code: "LD_CCSAQ",
-        rows: Rows::Inequalities,
-        storage: Some(|n, m| 2.0 * n * m),
-        work: Some(|n, m| DUAL_STEPS * n * m),
-        ..LOCAL
-    },
+    Algorithm { name: "mma", code: "LD_MMA", ..CONSERVATIVE },
+    Algorithm { name: "ccsaq", code: "LD_CCSAQ", ..CONSERVATIVE },
     Algorithm { name: "auglag", code: "AUGLAG", inner: Some("LD_LBFGS"), rows: Rows::All, storage: Some(|n, m| n * m), ..LOCAL },
     Algorithm { name: "lbfgs", code: "LD_LBFGS", ..LOCAL },
     Algorithm { name: "tnewton", code: "LD_TNEWTON_PRECOND_RESTART", ..LOCAL },
