@@ -9,11 +9,13 @@
 mod pairs;
 mod transformed;
 
+use super::sparse::Pivoting;
 use super::{FactorizationError, Inertia, SymmetricSolver};
 use transformed::Transformed;
 
 /// A solver like [`SymmetricSolver`] that changes the basis where that pays.
 pub struct CongruentSolver {
+    pivoting: Pivoting,
     offsets: Vec<usize>,
     columns: Vec<u32>,
     basis: Basis,
@@ -32,8 +34,17 @@ enum Basis {
 impl CongruentSolver {
     /// A solver for a lower triangle by rows, as [`SymmetricSolver::new`] takes it.
     pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
-        let plain = SymmetricSolver::new(&offsets, &columns)?;
-        Ok(CongruentSolver { offsets, columns, basis: Basis::Unknown(plain) })
+        Self::with_pivoting(offsets, columns, Pivoting::Threshold)
+    }
+
+    /// The same for quasi-definite matrices: [`SymmetricSolver::for_quasi_definite`].
+    pub fn for_quasi_definite(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::Static)
+    }
+
+    fn with_pivoting(offsets: Vec<usize>, columns: Vec<u32>, pivoting: Pivoting) -> Result<Self, FactorizationError> {
+        let plain = SymmetricSolver::with_pivoting(&offsets, &columns, pivoting)?;
+        Ok(CongruentSolver { pivoting, offsets, columns, basis: Basis::Unknown(plain) })
     }
 
     /// Factorises the matrix with these values along the pattern.
@@ -51,10 +62,14 @@ impl CongruentSolver {
                 }
             }
         }
-        let mut plain = SymmetricSolver::new(&self.offsets, &self.columns)?;
+        let mut plain = self.solver(&self.offsets, &self.columns)?;
         let inertia = plain.factor(values);
         self.basis = Basis::Plain(plain);
         inertia
+    }
+
+    fn solver(&self, offsets: &[usize], columns: &[u32]) -> Result<SymmetricSolver, FactorizationError> {
+        SymmetricSolver::with_pivoting(offsets, columns, self.pivoting)
     }
 
     /// Finds the basis for these values and all that follow.
@@ -63,9 +78,9 @@ impl CongruentSolver {
         let basis = match Transformed::new(&self.offsets, &self.columns, values, partners) {
             Some(transformed) => {
                 let (offsets, columns) = transformed.pattern();
-                Basis::Changed { solver: SymmetricSolver::new(offsets, columns)?, transformed: Box::new(transformed) }
+                Basis::Changed { solver: self.solver(offsets, columns)?, transformed: Box::new(transformed) }
             }
-            None => Basis::Plain(SymmetricSolver::new(&self.offsets, &self.columns)?),
+            None => Basis::Plain(self.solver(&self.offsets, &self.columns)?),
         };
         self.basis = basis;
         Ok(())

@@ -8,6 +8,8 @@ pub mod bunch_kaufman;
 pub mod cholesky;
 pub mod congruence;
 mod dense;
+mod ordering;
+mod sparse;
 mod symmetric;
 
 pub use symmetric::{FactorizationError, Inertia, SymmetricSolver};

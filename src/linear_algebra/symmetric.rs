@@ -1,15 +1,10 @@
 //! LDLᵀ of a sparse symmetric indefinite matrix: analyse once, factorise often, solve with refinement.
 
-use feral::numeric::solver::FactorStatus;
-use feral::symbolic::OrderingMethod;
-use feral::{CscMatrix, RefineOptions, Solver};
+use feral::CscMatrix;
 use thiserror::Error;
 
 use super::dense::{self, DenseSolver};
-
-/// Beyond this order the library would dissect; minimum degree copes better with rows that reach far (half of the fill and less
-/// on grids with a row per line, no worse on plain grids, chains and trees).
-const LARGEST_AUTOMATIC: usize = 10_000;
+use super::sparse::{Pivoting, SparseSolver};
 
 /// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +60,7 @@ pub struct SymmetricSolver {
 
 /// Which of the library's factorisations is used.
 enum Method {
-    Sparse(Box<Solver>),
+    Sparse(SparseSolver),
     /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
     Dense(Box<DenseSolver>),
 }
@@ -74,6 +69,16 @@ impl SymmetricSolver {
     /// A solver for matrices whose lower triangle has, in row i, the columns `columns[offsets[i]..offsets[i + 1]]`
     /// (ascending, at most i). Diagonal positions may be left out.
     pub fn new(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::Threshold)
+    }
+
+    /// The same for matrices that are quasi-definite most of the time, [E, Bᵀ; B, −F] with E and F positive definite: pivots are
+    /// taken as they come, which is faster and less accurate. Where one is too small, the usual choice comes back for good.
+    pub fn for_quasi_definite(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::Static)
+    }
+
+    pub(super) fn with_pivoting(offsets: &[usize], columns: &[u32], pivoting: Pivoting) -> Result<Self, FactorizationError> {
         check(offsets, columns)?;
         let n = offsets.len() - 1;
         let mut starts = vec![0; n + 1];
@@ -97,10 +102,8 @@ impl SymmetricSolver {
         let matrix = CscMatrix { n, col_ptr: starts, row_idx: rows, values: vec![0.0; columns.len()] };
         let method = if n <= dense::LARGEST_ORDER {
             Method::Dense(Box::new(DenseSolver::new(n)))
-        } else if n <= LARGEST_AUTOMATIC {
-            Method::Sparse(Box::default())
         } else {
-            Method::Sparse(Box::new(Solver::new().with_ordering(OrderingMethod::Amd)))
+            Method::Sparse(SparseSolver::new(pivoting))
         };
         Ok(SymmetricSolver { matrix, places, method })
     }
@@ -124,7 +127,7 @@ impl SymmetricSolver {
         }
         match &mut self.method {
             Method::Dense(solver) => solver.factor(&self.matrix),
-            Method::Sparse(solver) => factor_sparse(solver, &self.matrix),
+            Method::Sparse(solver) => solver.factor(&self.matrix),
         }
     }
 
@@ -135,30 +138,16 @@ impl SymmetricSolver {
         }
         match &self.method {
             Method::Dense(solver) => solver.solve(right, x),
-            Method::Sparse(solver) => solver
-                .solve_refined_into(&self.matrix, right, x, RefineOptions::default())
-                .map_err(|error| FactorizationError::Library(error.to_string())),
+            Method::Sparse(solver) => solver.solve(&self.matrix, right, x),
         }
     }
 
     /// x = A⁻¹·right without refinement, for callers who refine themselves.
     pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
         match &self.method {
-            Method::Sparse(solver) if self.order() > 0 => {
-                solver.solve_into(right, x).map_err(|error| FactorizationError::Library(error.to_string()))
-            }
+            Method::Sparse(solver) if self.order() > 0 => solver.solve_once(right, x),
             _ => self.solve(right, x),
         }
-    }
-}
-
-fn factor_sparse(solver: &mut Solver, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-    match solver.factor(matrix, None) {
-        FactorStatus::Success | FactorStatus::WrongInertia { .. } => {
-            solver.inertia().map(Inertia::of).ok_or(FactorizationError::Singular)
-        }
-        FactorStatus::Singular => Err(FactorizationError::Singular),
-        FactorStatus::FatalError(error) => Err(FactorizationError::Library(error.to_string())),
     }
 }
 
@@ -248,8 +237,37 @@ mod tests {
             assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-13), "{x:?}");
         }
         match &solver.method {
-            Method::Sparse(sparse) => assert_eq!(sparse.symbolic_call_count(), 1),
+            Method::Sparse(sparse) => assert_eq!(sparse.analyses(), 1),
             Method::Dense(_) => panic!("order {n} is not for the dense method"),
+        }
+    }
+
+    #[test]
+    fn pivots_as_they_come_serve_quasi_definite_matrices_and_give_way_to_others() {
+        let n = dense::LARGEST_ORDER + 1;
+        // A chain, every second unknown with the other sign on the diagonal.
+        let offsets: Vec<usize> = (0..=n).map(|row| if row == 0 { 0 } else { 2 * row - 1 }).collect();
+        let columns: Vec<u32> = (0..n as u32).flat_map(|row| row.saturating_sub(1)..=row).collect();
+        let mut solver = SymmetricSolver::for_quasi_definite(&offsets, &columns).unwrap();
+        let values = |size: f64| -> Vec<f64> {
+            let diagonal = |row: usize| if row % 2 == 0 { size } else { -size };
+            (0..2 * n - 1).map(|at| if at % 2 == 0 { diagonal(at / 2) } else { 1.0 }).collect()
+        };
+        // Without a diagonal the first pivot is missing.
+        for size in [2.0, 0.0, 3.0] {
+            let mut values = values(size);
+            values[2 * n - 2] = 1.0;
+            let inertia = solver.factor(&values).unwrap();
+            assert_eq!((inertia.positive, inertia.negative), (n - n / 2, n / 2), "{size}");
+            let mut x = vec![0.0; n];
+            let right: Vec<f64> = (0..n)
+                .map(|row| {
+                    let beside = f64::from(u8::from(row > 0)) + f64::from(u8::from(row + 1 < n));
+                    beside + values[2 * row]
+                })
+                .collect();
+            solver.solve(&right, &mut x).unwrap();
+            assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-12), "{x:?}");
         }
     }
 

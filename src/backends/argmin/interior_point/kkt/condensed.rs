@@ -69,7 +69,7 @@ impl Condensed {
             residual: vec![0.0; system.order()],
             correction: vec![0.0; system.order()],
             values: vec![0.0; pattern.len()],
-            solver: CongruentSolver::new(pattern.offsets, pattern.columns).ok()?,
+            solver: CongruentSolver::for_quasi_definite(pattern.offsets, pattern.columns).ok()?,
             condensed,
             kept,
         })

@@ -1,0 +1,137 @@
+//! A fill-reducing order of the unknowns: approximate minimum degree (Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17, 1996) on
+//! the graph without its longest rows, each of which follows the last of its neighbours.
+//!
+//! A row over hundreds of unknowns (a limit of a whole line of ribs) costs minimum degree more time than all others together and tells
+//! it little: whichever neighbour goes first, the others become one clique.
+
+use feral::CscMatrix;
+use feral_amd::{CscPattern, amd_order};
+
+/// A row is long that has more neighbours than this, and than this multiple of the mean.
+const LONG: usize = 64;
+const TIMES_THE_MEAN: usize = 10;
+
+/// The order, `order[k]` being the unknown that is eliminated k-th; `None` where the library refuses the pattern.
+pub(super) fn fill_reducing(matrix: &CscMatrix) -> Option<Vec<usize>> {
+    let degrees = degrees(matrix);
+    let longest = LONG.max(TIMES_THE_MEAN * degrees.iter().sum::<usize>() / matrix.n.max(1));
+    let short: Vec<usize> = (0..matrix.n).filter(|&j| degrees[j] <= longest).collect();
+    let order = of_short(matrix, &short)?;
+    let mut turn = vec![None; matrix.n];
+    for (k, &j) in order.iter().enumerate() {
+        turn[j] = Some(k);
+    }
+    Some(with_long(order, &last_neighbours(matrix, &turn)))
+}
+
+/// The entries off the diagonal: (row, column), row > column.
+fn couplings(matrix: &CscMatrix) -> impl Iterator<Item = (usize, usize)> {
+    let of_column = |j: usize| matrix.row_idx[matrix.col_ptr[j]..matrix.col_ptr[j + 1]].iter().map(move |&i| (i, j));
+    (0..matrix.n).flat_map(of_column).filter(|(i, j)| i != j)
+}
+
+/// Neighbours of each unknown.
+fn degrees(matrix: &CscMatrix) -> Vec<usize> {
+    let mut degrees = vec![0; matrix.n];
+    for (i, j) in couplings(matrix) {
+        degrees[i] += 1;
+        degrees[j] += 1;
+    }
+    degrees
+}
+
+/// The order of some unknowns, given ascending, with couplings among themselves alone.
+fn of_short(matrix: &CscMatrix, short: &[usize]) -> Option<Vec<usize>> {
+    let mut place = vec![None; matrix.n];
+    for (k, &j) in short.iter().enumerate() {
+        place[j] = Some(k);
+    }
+    let pairs = || couplings(matrix).filter_map(|(i, j)| Some((place[i]?, place[j]?)));
+    let mut starts = vec![0_i32; short.len() + 1];
+    for (i, j) in pairs() {
+        starts[i + 1] = starts[i + 1].checked_add(1)?;
+        starts[j + 1] = starts[j + 1].checked_add(1)?;
+    }
+    for k in 0..short.len() {
+        starts[k + 1] = starts[k + 1].checked_add(starts[k])?;
+    }
+    let mut neighbours = vec![0_i32; *starts.last()? as usize];
+    let mut next = starts.clone();
+    let mut put = |of: usize, neighbour: usize| {
+        neighbours[next[of] as usize] = neighbour as i32;
+        next[of] += 1;
+    };
+    // Smaller neighbours first, so that each list ascends.
+    pairs().for_each(|(i, j)| put(i, j));
+    pairs().for_each(|(i, j)| put(j, i));
+    let order = amd_order(&CscPattern::new(short.len(), &starts, &neighbours)?).ok()?;
+    order.into_iter().map(|k| short.get(usize::try_from(k).ok()?).copied()).collect()
+}
+
+/// Of each unknown without a turn: after how many others comes the last of its neighbours that have one.
+fn last_neighbours(matrix: &CscMatrix, turn: &[Option<usize>]) -> Vec<(usize, usize)> {
+    let mut last = vec![0; matrix.n];
+    for (i, j) in couplings(matrix) {
+        for (long, neighbour) in [(i, j), (j, i)] {
+            if let (None, Some(turn)) = (turn[long], turn[neighbour]) {
+                last[long] = last[long].max(turn + 1);
+            }
+        }
+    }
+    let mut long: Vec<(usize, usize)> = (0..matrix.n).filter(|&j| turn[j].is_none()).map(|j| (last[j], j)).collect();
+    long.sort_unstable();
+    long
+}
+
+/// Puts the long rows, (place, unknown) ascending, among the others.
+fn with_long(order: Vec<usize>, long: &[(usize, usize)]) -> Vec<usize> {
+    let mut all = Vec::with_capacity(order.len() + long.len());
+    let mut long = long.iter().peekable();
+    for (k, j) in order.into_iter().enumerate() {
+        while let Some(&(_, row)) = long.next_if(|(place, _)| *place <= k) {
+            all.push(row);
+        }
+        all.push(j);
+    }
+    all.extend(long.map(|&(_, row)| row));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chain of n unknowns with one row over the first half and one over all.
+    fn chain(n: usize) -> CscMatrix {
+        let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
+        for j in 0..n + 2 {
+            row_idx.push(j);
+            row_idx.extend((j + 1 < n).then_some(j + 1));
+            row_idx.extend((j < n / 2).then_some(n));
+            row_idx.extend((j < n).then_some(n + 1));
+            col_ptr.push(row_idx.len());
+        }
+        CscMatrix { n: n + 2, values: vec![0.0; row_idx.len()], col_ptr, row_idx }
+    }
+
+    #[test]
+    fn long_rows_follow_the_last_of_their_neighbours() {
+        let n = 1000;
+        let order = fill_reducing(&chain(n)).unwrap();
+        let turn = |j: usize| order.iter().position(|&k| k == j).unwrap();
+        let last = (0..n / 2).map(turn).max().unwrap();
+        assert_eq!(turn(n), last + 1);
+        assert_eq!(order[n + 1], n + 1);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!(sorted.into_iter().eq(0..n + 2), "every unknown once");
+    }
+
+    #[test]
+    fn nothing_to_order_is_in_order() {
+        let empty = CscMatrix { n: 0, col_ptr: vec![0], row_idx: vec![], values: vec![] };
+        assert_eq!(fill_reducing(&empty), Some(vec![]));
+        let diagonal = CscMatrix { n: 3, col_ptr: vec![0, 1, 2, 3], row_idx: vec![0, 1, 2], values: vec![1.0; 3] };
+        assert_eq!(fill_reducing(&diagonal).unwrap().len(), 3);
+    }
+}
