@@ -37,6 +37,11 @@ impl<'s> Beginning<'s> {
 }
 
 impl<'a> Engine<'a> {
+    /// Whether time is better spent otherwise than on the last digits.
+    pub(super) fn is_large(&self) -> bool {
+        self.form.variables() >= LARGE
+    }
+
     /// At the start, ready to iterate.
     pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
@@ -77,6 +82,7 @@ impl<'a> Engine<'a> {
             restorations: 0,
             step_norm: 0.0,
             errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
+            unguarded: form.variables() >= LARGE,
             escapes: 0,
             watchdog: None,
             shortened_steps: 0,

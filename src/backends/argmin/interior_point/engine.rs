@@ -25,7 +25,7 @@ pub(super) const LAST_REGULARISATION: f64 = 1e-10;
 /// First and last barrier parameter, κ_μ, θ_μ and κ_ε of its decrease, τ_min.
 pub(super) const FIRST_BARRIER: f64 = 0.1;
 pub(super) const WARM_BARRIER: f64 = 1e-6;
-const LAST_BARRIER: f64 = 1e-12;
+pub(super) const LAST_BARRIER: f64 = 1e-12;
 const LINEAR_DECREASE: f64 = 0.2;
 const SUPERLINEAR_DECREASE: f64 = 1.5;
 const BARRIER_TOLERANCE: f64 = 10.0;
@@ -83,6 +83,8 @@ pub(super) struct Engine<'a> {
     /// The optimality error of the current iterate.
     pub errors: Errors,
     pub best: Best,
+    /// Whether steps are taken without the filter: [`Engine::predictor_corrector`].
+    pub unguarded: bool,
     /// Saddle points left so far.
     pub escapes: usize,
     pub watchdog: Option<Box<Watchdog>>,
@@ -115,7 +117,7 @@ impl Engine<'_> {
         match self.ending() {
             Some(Ending::Optimal | Ending::Acceptable) if self.leave_saddle()? => {}
             Some(ending) => return Ok(Some(ending)),
-            None if self.polished_early()? => return Ok(None),
+            None if self.polished_early()? || self.predictor_corrector()? => return Ok(None),
             None => {}
         }
         if self.watchdog.is_none() {
@@ -185,11 +187,18 @@ impl Engine<'_> {
         }
     }
 
-    /// Solves the KKT system at the iterate. `false`: it has no usable factors.
-    fn newton_direction(&mut self) -> Result<bool, EvaluationError> {
-        let Self { form, iterate, right, .. } = self;
+    /// W and Σ at the iterate.
+    pub fn second_order(&mut self) -> Result<(), EvaluationError> {
+        let Self { form, iterate, .. } = self;
         form.hessian(&iterate.w, &iterate.y, &mut self.hessian)?;
         barrier::sigma(form, &iterate.w, &iterate.z_lower, &iterate.z_upper, &mut self.sigma);
+        Ok(())
+    }
+
+    /// Solves the KKT system at the iterate. `false`: it has no usable factors.
+    fn newton_direction(&mut self) -> Result<bool, EvaluationError> {
+        self.second_order()?;
+        let Self { form, iterate, right, .. } = self;
         self.barrier_gradient.fill(0.0);
         self.barrier_gradient[..form.variables()].copy_from_slice(&iterate.gradient);
         barrier::add_gradient(form, &iterate.w, self.mu, &mut self.barrier_gradient);
@@ -244,12 +253,17 @@ impl Engine<'_> {
     fn take(&mut self, length: f64) -> Result<(), EvaluationError> {
         self.trial.evaluate(&mut self.form)?;
         self.step_multipliers(length);
+        self.arrive();
+        Ok(())
+    }
+
+    /// Makes the trial point the iterate.
+    pub fn arrive(&mut self) {
         let n = self.form.variables();
         let change = |j: usize| (self.trial.w[j] - self.iterate.w[j]) * self.form.variable_scale[j];
         self.step_norm = (0..n).map(|j| change(j).powi(2)).sum::<f64>().sqrt();
         std::mem::swap(&mut self.iterate, &mut self.trial);
         self.assess();
-        Ok(())
     }
 
     /// Sets the trial point's multipliers: y by the primal length, bounds' by their own.

@@ -234,6 +234,16 @@ impl<'a> Form<'a> {
         Ok(())
     }
 
+    /// Adds (∂g/∂w)ᵀy over variables and slacks to `target`.
+    pub fn add_transposed(&self, jacobian: &[f64], y: &[f64], target: &mut [f64]) {
+        self.jacobian.add_transposed(jacobian, y, &mut target[..self.free.len()]);
+        for (slack, y) in self.slack.iter().zip(y) {
+            if let Some(slack) = *slack {
+                target[slack] -= y;
+            }
+        }
+    }
+
     /// g from the rows' values: less the limit of an equality, less the slack of an inequality.
     pub fn residual(&self, w: &[f64], rows: &[f64], residual: &mut [f64]) {
         let meta = self.model.meta();

@@ -76,14 +76,9 @@ impl Iterate {
 
     /// ∇f + Aᵀy over variables and slacks (bound multipliers left out), into `target`.
     pub fn lagrangian_gradient(&self, form: &Form<'_>, target: &mut [f64]) {
-        let n = form.variables();
-        target[..n].copy_from_slice(&self.gradient);
-        form.jacobian.add_transposed(&self.jacobian, &self.y, &mut target[..n]);
-        for (slack, y) in form.slack.iter().zip(&self.y) {
-            if let Some(slack) = *slack {
-                target[slack] = -y;
-            }
-        }
+        target.fill(0.0);
+        target[..form.variables()].copy_from_slice(&self.gradient);
+        form.add_transposed(&self.jacobian, &self.y, target);
     }
 
     /// The optimality error for a barrier parameter (0: of the problem itself).

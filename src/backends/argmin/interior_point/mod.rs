@@ -8,6 +8,7 @@
 //! | [`begin`], [`start`] | the first iterate |
 //! | [`barrier`] | the logarithmic barrier |
 //! | [`kkt`] | the Newton system and its inertia |
+//! | [`predictor`] | steps of large problems without a line search, while they do well |
 //! | [`line_search`], [`filter`] | which steps are taken |
 //! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
 //! | [`watchdog`] | full steps on trial where the filter cuts too many short |
@@ -26,6 +27,7 @@ mod iterate;
 mod kkt;
 mod line_search;
 mod polish;
+mod predictor;
 mod restoration;
 mod saddle;
 mod scaling;

@@ -8,15 +8,17 @@ use super::kkt::{Blocks, Sides};
 use super::vectors::norm_max;
 use crate::model::EvaluationError;
 
-/// Newton steps at the most; on trial.
+/// Newton steps at the most; factorisations on trial.
 const MOST_STEPS: usize = 10;
-const TRIAL_STEPS: usize = 5;
+const TRIAL_FACTORS: usize = 5;
 /// Optimality errors below this are rounding.
 const ROUNDING: f64 = 1e-14;
 /// At which optimality error a large problem is polished on trial first, and by which factor lower each time again: where a few
 /// Newton steps succeed they save the barrier's last iterations.
-pub(super) const FIRST_TRIAL: f64 = 1e-7;
-const NEXT_TRIAL: f64 = 1e-2;
+pub(super) const FIRST_TRIAL: f64 = 1e-5;
+const NEXT_TRIAL: f64 = 0.1;
+/// Factors are used again while each step leaves less than this share of the error.
+const WORTHWHILE: f64 = 0.1;
 /// 1/Σ of the slack of a row that is left out.
 const LEFT_OUT: f64 = 1e30;
 /// Regularisation where active rows are dependent or the reduced Hessian is singular.
@@ -54,7 +56,8 @@ impl Engine<'_> {
     /// Replaces the iterate by a polished one where that lowers the optimality error.
     pub(super) fn polish(&mut self) -> Result<(), EvaluationError> {
         self.assess();
-        if self.errors.largest() <= ROUNDING {
+        let enough = if self.is_large() { TOLERANCE } else { ROUNDING };
+        if self.errors.largest() <= enough {
             return Ok(());
         }
         for doubt in [Doubt::Compare, Doubt::Hold] {
@@ -93,20 +96,30 @@ impl Engine<'_> {
         }
     }
 
-    /// A few Newton steps on active sets that follow from one another; the point, if it is optimal.
+    /// Newton steps on active sets that follow from one another, by few factorisations; the point, if it is optimal.
     fn newton_on_trial(&mut self) -> Result<Option<Iterate>, EvaluationError> {
         let mut sides = active_set(&self.form, &self.iterate, Doubt::Compare);
         let mut point = self.iterate.clone();
-        for _ in 0..TRIAL_STEPS {
-            hold(&self.form, &sides, &mut point);
-            point.evaluate(&mut self.form)?;
-            if !self.active_set_step(&sides, &mut point, Certainty::Guess)? {
+        let (mut factors, mut fresh, mut before) = (0, true, f64::INFINITY);
+        while factors < TRIAL_FACTORS {
+            if fresh {
+                factors += 1;
+                hold(&self.form, &sides, &mut point);
+                point.evaluate(&mut self.form)?;
+                if !self.factor_on(&sides, &point, Certainty::Guess)? {
+                    return Ok(None);
+                }
+            }
+            if !self.step_on(&sides, &mut point)? {
                 return Ok(None);
             }
-            if settle(&self.form, &sides, &mut point, &mut self.right) <= TOLERANCE {
+            let error = settle(&self.form, &sides, &mut point, &mut self.right);
+            if error <= TOLERANCE {
                 return Ok(Some(point));
             }
-            revise(&self.form, &mut sides, &point, &mut self.right);
+            // The factors serve again as long as the active set stays and they bring much.
+            fresh = revise(&self.form, &mut sides, &point, &mut self.right) || error > WORTHWHILE * before;
+            before = error;
         }
         Ok(None)
     }
@@ -118,7 +131,7 @@ impl Engine<'_> {
         hold(&self.form, sides, &mut point);
         point.evaluate(&mut self.form)?;
         for _ in 0..MOST_STEPS {
-            if !self.active_set_step(sides, &mut point, Certainty::Final)? {
+            if !self.factor_on(sides, &point, Certainty::Final)? || !self.step_on(sides, &mut point)? {
                 break;
             }
             let error = settle(&self.form, sides, &mut point, &mut self.right);
@@ -144,7 +157,8 @@ impl Engine<'_> {
         let mut point = best.clone();
         point.y.fill(0.0);
         point.lagrangian_gradient(form, right);
-        restrict(sides, n, (kkt.rigid(), 1.0), right, sigma);
+        restrict(sides, n, right);
+        hold_firmly(sides, n, (kkt.rigid(), 1.0), sigma);
         hessian.fill(0.0);
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
         let zeros = vec![0.0; form.rows.len()];
@@ -159,20 +173,24 @@ impl Engine<'_> {
         }
     }
 
-    /// One Newton step of variables and multipliers, regularised where there is none without. `false`: there is none.
-    fn active_set_step(&mut self, sides: &[Side], point: &mut Iterate, certain: Certainty) -> Result<bool, EvaluationError> {
-        let Self { form, kkt, hessian, sigma, right, direction, .. } = self;
-        let n = form.variables();
+    /// Factorises Newton's matrix on an active set, regularised where it has no factors without. `false`: there are none.
+    fn factor_on(&mut self, sides: &[Side], point: &Iterate, certain: Certainty) -> Result<bool, EvaluationError> {
+        let Self { form, kkt, hessian, sigma, .. } = self;
         form.hessian(&point.w, &point.y, hessian)?;
-        point.lagrangian_gradient(form, right);
-        restrict(sides, n, (kkt.rigid(), 0.0), right, sigma);
-        let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
-        let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
+        hold_firmly(sides, form.variables(), (kkt.rigid(), 0.0), sigma);
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
         let regular = certain == Certainty::Final && kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0);
-        if !regular && kkt.factor(blocks, REGULARISATION, REGULARISATION).is_err() {
-            return Ok(false);
-        }
+        Ok(regular || kkt.factor(blocks, REGULARISATION, REGULARISATION).is_ok())
+    }
+
+    /// One step of variables and multipliers with the factors found last. `false`: there is none.
+    fn step_on(&mut self, sides: &[Side], point: &mut Iterate) -> Result<bool, EvaluationError> {
+        let Self { form, kkt, right, direction, .. } = self;
+        let n = form.variables();
+        point.lagrangian_gradient(form, right);
+        restrict(sides, n, right);
+        let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
+        let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
         if kkt.solve(Sides { w: right, rows: &rows }, &mut direction.w, &mut direction.y).is_err() {
             return Ok(false);
         }
@@ -204,27 +222,36 @@ fn active_set(form: &Form<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<Side> {
         .collect()
 }
 
-/// Lets go what is held with a multiplier of the wrong sign, and holds what has run into a bound.
-fn revise(form: &Form<'_>, sides: &mut [Side], point: &Iterate, scratch: &mut [f64]) {
+/// Lets go what is held with a multiplier of the wrong sign, and holds what has run into a bound. Whether any did.
+fn revise(form: &Form<'_>, sides: &mut [Side], point: &Iterate, scratch: &mut [f64]) -> bool {
     point.lagrangian_gradient(form, scratch);
+    let mut changed = false;
     for (j, side) in sides.iter_mut().enumerate() {
-        *side = match *side {
+        let revised = match *side {
             Side::Lower if scratch[j] < 0.0 => Side::Free,
             Side::Upper if scratch[j] > 0.0 => Side::Free,
             Side::Free if point.w[j] <= form.lower[j] => Side::Lower,
             Side::Free if point.w[j] >= form.upper[j] => Side::Upper,
             same => same,
         };
+        changed |= revised != *side;
+        *side = revised;
+    }
+    changed
+}
+
+/// Turns a gradient into the right-hand side of the free variables.
+fn restrict(sides: &[Side], variables: usize, right: &mut [f64]) {
+    for (j, side) in sides.iter().enumerate() {
+        right[j] = if *side != Side::Free || j >= variables { 0.0 } else { -right[j] };
     }
 }
 
-/// Turns a gradient into the right-hand side of the free variables, and Σ into what holds the others: a held variable
-/// stays, a held slack makes its row an equality, a free one takes its row out. Variables get Σ = `rigid` or `free`.
-fn restrict(sides: &[Side], variables: usize, (rigid, free): (f64, f64), right: &mut [f64], sigma: &mut [f64]) {
+/// Σ that holds what is not free: a held variable stays, a held slack makes its row an equality, a free one takes its row out.
+/// Variables get `rigid` or `free`.
+fn hold_firmly(sides: &[Side], variables: usize, (rigid, free): (f64, f64), sigma: &mut [f64]) {
     for (j, side) in sides.iter().enumerate() {
-        let held = *side != Side::Free;
-        right[j] = if held || j >= variables { 0.0 } else { -right[j] };
-        sigma[j] = match (held, j < variables) {
+        sigma[j] = match (*side != Side::Free, j < variables) {
             (true, true) => rigid,
             (false, true) => free,
             (true, false) => f64::INFINITY,

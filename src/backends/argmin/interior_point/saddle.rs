@@ -23,7 +23,8 @@ const BARRIER: f64 = 1e-3;
 impl Engine<'_> {
     /// Where the iterate is stationary but curved downwards, moves along that curvature and returns `true`.
     pub(super) fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
-        if self.escapes >= MOST_ESCAPES || self.form.variables() == 0 {
+        // Where steps are still unguarded the inertia was right at the last of them.
+        if self.escapes >= MOST_ESCAPES || self.form.variables() == 0 || self.unguarded {
             return Ok(false);
         }
         self.escapes += 1;
@@ -63,6 +64,8 @@ impl Engine<'_> {
             other => other?,
         }
         barrier::sigma(form, &iterate.w, &iterate.z_lower, &iterate.z_upper, sigma);
+        // A polished iterate lies on its bounds.
+        sigma.iter_mut().for_each(|sigma| *sigma = sigma.min(kkt.rigid()).max(1.0 / kkt.rigid()));
         let blocks = Blocks { hessian, jacobian: &iterate.jacobian, sigma };
         // Regularised, so that dependent rows count as negative eigenvalues like all others.
         let regularised = kkt.factor(blocks, 0.0, engine::LAST_REGULARISATION);

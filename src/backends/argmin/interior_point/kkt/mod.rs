@@ -147,9 +147,20 @@ impl Kkt {
         full.factor(&self.system)
     }
 
+    /// The inertia of a minimum.
+    fn wanted(&self) -> Inertia {
+        Inertia { positive: self.variables, negative: self.slack.len(), zero: 0 }
+    }
+
+    /// Factorises without corrections. `false`: the inertia is not that of a minimum.
+    pub fn factor_uncorrected(&mut self, blocks: Blocks<'_>) -> bool {
+        let wanted = self.wanted();
+        self.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia == wanted)
+    }
+
     /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
     pub fn factor_corrected(&mut self, blocks: Blocks<'_>, mu: f64) -> Result<bool, FactorizationError> {
-        let wanted = Inertia { positive: self.variables, negative: self.slack.len(), zero: 0 };
+        let wanted = self.wanted();
         let regularisation = DUAL_REGULARISATION * mu.powf(0.25);
         let mut dual = if self.dependent { regularisation } else { 0.0 };
         match self.factor(blocks, 0.0, dual) {
@@ -187,7 +198,7 @@ impl Kkt {
         if !self.factor_corrected(blocks, 1.0).unwrap_or(false) {
             return false;
         }
-        let wanted = Inertia { positive: self.variables, negative: self.slack.len(), zero: 0 };
+        let wanted = self.wanted();
         let (mut too_small, mut enough) = (self.correction / FIRST_INCREASE, self.correction);
         for _ in 0..BISECTIONS {
             let middle = (too_small * enough).sqrt();
