@@ -9,7 +9,7 @@
 mod pairs;
 mod transformed;
 
-use super::sparse::Pivoting;
+use super::symmetric::Pivoting;
 use super::{FactorizationError, Inertia, SymmetricSolver};
 use transformed::Transformed;
 

@@ -9,6 +9,7 @@ pub mod cholesky;
 pub mod congruence;
 mod dense;
 mod ordering;
+mod quasi_definite;
 mod sparse;
 mod symmetric;
 

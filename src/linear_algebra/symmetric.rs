@@ -4,7 +4,8 @@ use feral::CscMatrix;
 use thiserror::Error;
 
 use super::dense::{self, DenseSolver};
-use super::sparse::{Pivoting, SparseSolver};
+use super::quasi_definite::QuasiDefiniteSolver;
+use super::sparse::SparseSolver;
 
 /// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,9 +59,20 @@ pub struct SymmetricSolver {
     method: Method,
 }
 
-/// Which of the library's factorisations is used.
+/// How pivots are chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Pivoting {
+    /// By size.
+    Threshold,
+    /// Not at all, as long as that goes well.
+    Static,
+}
+
+/// Which factorisation is used.
 enum Method {
     Sparse(SparseSolver),
+    /// Analysed at the first call.
+    QuasiDefinite(Option<Box<QuasiDefiniteSolver>>),
     /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
     Dense(Box<DenseSolver>),
 }
@@ -103,7 +115,10 @@ impl SymmetricSolver {
         let method = if n <= dense::LARGEST_ORDER {
             Method::Dense(Box::new(DenseSolver::new(n)))
         } else {
-            Method::Sparse(SparseSolver::new(pivoting))
+            match pivoting {
+                Pivoting::Threshold => Method::Sparse(SparseSolver::default()),
+                Pivoting::Static => Method::QuasiDefinite(None),
+            }
         };
         Ok(SymmetricSolver { matrix, places, method })
     }
@@ -128,10 +143,20 @@ impl SymmetricSolver {
         match &mut self.method {
             Method::Dense(solver) => solver.factor(&self.matrix),
             Method::Sparse(solver) => solver.factor(&self.matrix),
+            Method::QuasiDefinite(solver) => {
+                if let Ok(inertia) = factor_unpivoted(solver, &self.matrix) {
+                    return Ok(inertia);
+                }
+                let mut pivoted = SparseSolver::default();
+                let inertia = pivoted.factor(&self.matrix);
+                self.method = Method::Sparse(pivoted);
+                inertia
+            }
         }
     }
 
-    /// x = A⁻¹·right for the matrix factorised last, refined until its residual is down to rounding.
+    /// x = A⁻¹·right for the matrix factorised last, refined until its residual is down to rounding (not without pivoting: there
+    /// the caller refines).
     pub fn solve(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
         if self.order() == 0 {
             return Ok(());
@@ -139,6 +164,7 @@ impl SymmetricSolver {
         match &self.method {
             Method::Dense(solver) => solver.solve(right, x),
             Method::Sparse(solver) => solver.solve(&self.matrix, right, x),
+            Method::QuasiDefinite(_) => self.solve_once(right, x),
         }
     }
 
@@ -146,9 +172,18 @@ impl SymmetricSolver {
     pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
         match &self.method {
             Method::Sparse(solver) if self.order() > 0 => solver.solve_once(right, x),
+            Method::QuasiDefinite(solver) => solver.as_ref().ok_or(FactorizationError::Singular)?.solve_once(right, x),
             _ => self.solve(right, x),
         }
     }
+}
+
+fn factor_unpivoted(solver: &mut Option<Box<QuasiDefiniteSolver>>, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
+    let solver = match solver {
+        Some(solver) => solver,
+        None => solver.insert(Box::new(QuasiDefiniteSolver::new(matrix)?)),
+    };
+    solver.factor(matrix)
 }
 
 fn check(offsets: &[usize], columns: &[u32]) -> Result<(), FactorizationError> {
