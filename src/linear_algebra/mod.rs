@@ -1,4 +1,5 @@
-//! Sparse symmetric indefinite factorisation, by a library (feral), behind an interface of our own.
+//! Sparse symmetric factorisation, by libraries (feral for indefinite matrices, faer for quasi-definite ones), behind an interface of
+//! our own.
 //!
 //! A leaf: it knows index slices and values, nothing of models. Patterns are lower triangles compressed by rows,
 //! the layout of [`crate::model::Pattern`], so `SymmetricSolver::new(&pattern.offsets, &pattern.columns)` fits one.
@@ -8,6 +9,7 @@ pub mod bunch_kaufman;
 pub mod cholesky;
 pub mod congruence;
 mod dense;
+mod guarded;
 mod ordering;
 mod quasi_definite;
 mod sparse;

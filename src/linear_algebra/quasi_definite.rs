@@ -16,8 +16,8 @@ use feral::CscMatrix;
 use super::ordering::fill_reducing;
 use super::{FactorizationError, Inertia};
 
-/// The smallest pivot is no less than this share of the largest entry: less is left of rounding alone.
-const LEAST_PIVOT: f64 = 1e-15;
+/// Entries of L beyond 1/√ε tell of a pivot that is lost in rounding (Gill, Saunders & Shinnerl, SIAM J. Matrix Anal. Appl. 17, 1996).
+const LARGEST_FACTOR: f64 = 6.7e7;
 
 /// Analysis, factors and room to work in.
 pub(super) struct QuasiDefiniteSolver {
@@ -47,7 +47,6 @@ impl QuasiDefiniteSolver {
 
     /// Factorises. [`FactorizationError::Singular`] where a pivot is lost in rounding.
     pub fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        let largest = matrix.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         if !matrix.values.iter().all(|value| value.is_finite()) {
             return Err(FactorizationError::Library("a value is no number".into()));
         }
@@ -64,20 +63,24 @@ impl QuasiDefiniteSolver {
                 Default::default(),
             )
             .map_err(|_| FactorizationError::Singular)?;
-        self.inertia(LEAST_PIVOT * largest)
+        self.inertia()
     }
 
-    /// The signs of D, if none is smaller than `least`.
-    fn inertia(&self, least: f64) -> Result<Inertia, FactorizationError> {
+    /// The signs of D, if L is no larger than it may be.
+    fn inertia(&self) -> Result<Inertia, FactorizationError> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return Err(FactorizationError::Singular) };
         let factors = SupernodalLdltRef::new(symbolic, &self.factors);
         let mut inertia = Inertia { positive: 0, negative: 0, zero: 0 };
         for s in 0..symbolic.n_supernodes() {
-            for pivot in factors.supernode(s).val().diagonal().column_vector().iter() {
-                if !pivot.is_finite() || pivot.abs() <= least {
+            let block = factors.supernode(s).val();
+            // Column by column D, and below it L.
+            for k in 0..block.ncols() {
+                let (pivot, below) = (block[(k, k)], block.col(k).subrows(k + 1, block.nrows() - k - 1));
+                let fits = below.iter().all(|l| l.abs() <= LARGEST_FACTOR);
+                if !pivot.is_finite() || pivot == 0.0 || !fits {
                     return Err(FactorizationError::Singular);
                 }
-                *(if *pivot > 0.0 { &mut inertia.positive } else { &mut inertia.negative }) += 1;
+                *(if pivot > 0.0 { &mut inertia.positive } else { &mut inertia.negative }) += 1;
             }
         }
         Ok(inertia)

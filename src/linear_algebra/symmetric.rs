@@ -4,7 +4,7 @@ use feral::CscMatrix;
 use thiserror::Error;
 
 use super::dense::{self, DenseSolver};
-use super::quasi_definite::QuasiDefiniteSolver;
+use super::guarded::GuardedSolver;
 use super::sparse::SparseSolver;
 
 /// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
@@ -71,8 +71,7 @@ pub(super) enum Pivoting {
 /// Which factorisation is used.
 enum Method {
     Sparse(SparseSolver),
-    /// Analysed at the first call.
-    QuasiDefinite(Option<Box<QuasiDefiniteSolver>>),
+    QuasiDefinite(Box<GuardedSolver>),
     /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
     Dense(Box<DenseSolver>),
 }
@@ -85,7 +84,7 @@ impl SymmetricSolver {
     }
 
     /// The same for matrices that are quasi-definite most of the time, [E, Bᵀ; B, −F] with E and F positive definite: pivots are
-    /// taken as they come, which is faster and less accurate. Where one is too small, the usual choice comes back for good.
+    /// taken as they come, which is faster and less accurate, but where one is too small.
     pub fn for_quasi_definite(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
         Self::with_pivoting(offsets, columns, Pivoting::Static)
     }
@@ -117,7 +116,7 @@ impl SymmetricSolver {
         } else {
             match pivoting {
                 Pivoting::Threshold => Method::Sparse(SparseSolver::default()),
-                Pivoting::Static => Method::QuasiDefinite(None),
+                Pivoting::Static => Method::QuasiDefinite(Box::default()),
             }
         };
         Ok(SymmetricSolver { matrix, places, method })
@@ -143,15 +142,7 @@ impl SymmetricSolver {
         match &mut self.method {
             Method::Dense(solver) => solver.factor(&self.matrix),
             Method::Sparse(solver) => solver.factor(&self.matrix),
-            Method::QuasiDefinite(solver) => {
-                if let Ok(inertia) = factor_unpivoted(solver, &self.matrix) {
-                    return Ok(inertia);
-                }
-                let mut pivoted = SparseSolver::default();
-                let inertia = pivoted.factor(&self.matrix);
-                self.method = Method::Sparse(pivoted);
-                inertia
-            }
+            Method::QuasiDefinite(solver) => solver.factor(&self.matrix),
         }
     }
 
@@ -172,18 +163,10 @@ impl SymmetricSolver {
     pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
         match &self.method {
             Method::Sparse(solver) if self.order() > 0 => solver.solve_once(right, x),
-            Method::QuasiDefinite(solver) => solver.as_ref().ok_or(FactorizationError::Singular)?.solve_once(right, x),
+            Method::QuasiDefinite(solver) => solver.solve_once(right, x),
             _ => self.solve(right, x),
         }
     }
-}
-
-fn factor_unpivoted(solver: &mut Option<Box<QuasiDefiniteSolver>>, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-    let solver = match solver {
-        Some(solver) => solver,
-        None => solver.insert(Box::new(QuasiDefiniteSolver::new(matrix)?)),
-    };
-    solver.factor(matrix)
 }
 
 fn check(offsets: &[usize], columns: &[u32]) -> Result<(), FactorizationError> {
