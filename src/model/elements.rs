@@ -233,7 +233,11 @@ impl Group {
     /// The elements of a range under factors of their own.
     fn elements<'a>(&'a self, range: Range<usize>, weights: &'a [f64]) -> Elements<'a> {
         let (k, d) = (self.kernel.inputs(), self.kernel.data());
-        Elements { inputs: &self.inputs[range.start * k..range.end * k], data: &self.data[range.start * d..range.end * d], weights }
+        Elements {
+            inputs: &self.inputs[range.start * k..range.end * k],
+            data: &self.data[range.start * d..range.end * d],
+            weights,
+        }
     }
 
     /// The first element without a finite value, gradient or Hessian, and why.
