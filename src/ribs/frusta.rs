@@ -58,14 +58,32 @@ fn add_anywhere(inputs: &[[u32; 4]], weights: &[f64], x: &[f64], first: usize, t
 /// Their second derivatives, ten apiece in the order of the lower triangle; see
 /// [`Kernel::add_hessians`](crate::expression::kernel::Kernel::add_hessians).
 pub(super) fn add_hessians(elements: &Elements<'_>, x: &[f64], slots: &[u32], first: usize, target: &mut [f64]) {
-    let ((inputs, _), (slots, _)) = (elements.inputs.as_chunks::<4>(), slots.as_chunks::<10>());
-    let lanes = inputs.chunks(LANES).zip(slots.chunks(LANES)).zip(elements.weights.chunks(LANES));
-    for ((inputs, slots), weights) in lanes {
-        let seconds = hessians(&gathered(inputs, x));
-        for (lane, (slots, &weight)) in slots.iter().zip(weights).enumerate().filter(|(_, (_, weight))| **weight != 0.0) {
-            for (&slot, second) in slots.iter().zip(&seconds) {
-                if let Some(sum) = target.get_mut((slot as usize).wrapping_sub(first)) {
-                    *sum += weight * second[lane];
+    Arch::new().dispatch(Hessians { elements, x, slots, first, target });
+}
+
+struct Hessians<'a> {
+    elements: &'a Elements<'a>,
+    x: &'a [f64],
+    slots: &'a [u32],
+    first: usize,
+    target: &'a mut [f64],
+}
+
+impl WithSimd for Hessians<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Hessians { elements, x, slots, first, target } = self;
+        let ((inputs, _), (slots, _)) = (elements.inputs.as_chunks::<4>(), slots.as_chunks::<10>());
+        let lanes = inputs.chunks(LANES).zip(slots.chunks(LANES)).zip(elements.weights.chunks(LANES));
+        for ((inputs, slots), weights) in lanes {
+            let seconds = hessians(&gathered(inputs, x));
+            for (lane, (slots, &weight)) in slots.iter().zip(weights).enumerate().filter(|(_, (_, weight))| **weight != 0.0) {
+                for (&slot, second) in slots.iter().zip(&seconds) {
+                    if let Some(sum) = target.get_mut((slot as usize).wrapping_sub(first)) {
+                        *sum += weight * second[lane];
+                    }
                 }
             }
         }
@@ -86,11 +104,12 @@ fn gathered(inputs: &[[u32; 4]], x: &[f64]) -> [[f64; LANES]; 4] {
 
 /// Lower triangles of the Hessians, row by row. With g = √S1·√S2/12 they are ±g/(x_i·x_j), − on the diagonal; the two lengths
 /// of one end also meet in their own area.
+#[inline(always)]
 pub(super) fn hessians<const L: usize>([w1, h1, w2, h2]: &[[f64; L]; 4]) -> [[f64; L]; 10] {
     let mut seconds = [[0.0; L]; 10];
     for k in 0..L {
         let (s1, s2) = (w1[k] * h1[k], w2[k] * h2[k]);
-        let g = s1.sqrt() * s2.sqrt() / 12.0;
+        let g = s1.sqrt() * s2.sqrt() * (1.0 / 12.0);
         let (q1, q2) = (1.0 / s1, 1.0 / s2);
         let (w1, h1, w2, h2) = (h1[k] * q1, w1[k] * q1, h2[k] * q2, w2[k] * q2);
         let (gw1, gh1, gw2, gh2) = (g * w1, g * h1, g * w2, g * h2);
