@@ -37,7 +37,21 @@ pub trait Kernel: Send + Sync {
         target: &mut [f64],
         workspace: &mut Workspace,
     ) -> f64 {
-        one_by_one(self, elements, x, first, target, workspace)
+        gradients_one_by_one(self, elements, x, first, target, workspace)
+    }
+
+    /// Adds the weighted Hessians of many elements to `target`, which holds the values `first .. first + target.len()`; `slots`
+    /// says where each second derivative belongs, along the pattern. An element of weight 0 is left out.
+    fn add_hessians(
+        &self,
+        elements: &Elements<'_>,
+        x: &[f64],
+        slots: &[u32],
+        first: usize,
+        target: &mut [f64],
+        workspace: &mut Workspace,
+    ) {
+        hessians_one_by_one(self, elements, x, slots, first, target, workspace);
     }
 
     /// Why there is no finite value (or derivative) here; `None` where there is.
@@ -56,7 +70,7 @@ pub struct Elements<'a> {
 }
 
 /// [`Kernel::add_gradients`], element by element.
-pub fn one_by_one<K: Kernel + ?Sized>(
+pub fn gradients_one_by_one<K: Kernel + ?Sized>(
     kernel: &K,
     elements: &Elements<'_>,
     x: &[f64],
@@ -75,6 +89,31 @@ pub fn one_by_one<K: Kernel + ?Sized>(
         sum += weight * scatter(inputs, &gradient, weight, first, target, value);
     }
     sum
+}
+
+/// [`Kernel::add_hessians`], element by element.
+pub fn hessians_one_by_one<K: Kernel + ?Sized>(
+    kernel: &K,
+    elements: &Elements<'_>,
+    x: &[f64],
+    slots: &[u32],
+    first: usize,
+    target: &mut [f64],
+    workspace: &mut Workspace,
+) {
+    let (k, d, p) = (kernel.inputs(), kernel.data(), kernel.hessian_pattern().len());
+    let (mut local, mut hessian) = (vec![0.0; k], vec![0.0; p]);
+    for (at, &weight) in elements.weights.iter().enumerate().filter(|&(_, &weight)| weight != 0.0) {
+        for (slot, &input) in local.iter_mut().zip(&elements.inputs[at * k..]) {
+            *slot = x[input as usize];
+        }
+        kernel.hessian(&local, &elements.data[at * d..(at + 1) * d], workspace, &mut hessian);
+        for (&slot, second) in slots[at * p..].iter().zip(&hessian) {
+            if let Some(sum) = target.get_mut((slot as usize).wrapping_sub(first)) {
+                *sum += weight * second;
+            }
+        }
+    }
 }
 
 /// Adds one element's weighted gradient where it belongs to `target`; see [`Kernel::add_gradients`]. Returns `value` where the

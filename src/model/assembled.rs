@@ -20,6 +20,16 @@ impl Affine {
         self.constant + self.coefficients.iter().map(|&(j, c)| c * x[j as usize]).sum::<f64>()
     }
 
+    /// The derivatives by the variables from `first` on, overwritten.
+    pub fn gradient(&self, first: usize, target: &mut [f64]) {
+        target.fill(0.0);
+        let begin = self.coefficients.partition_point(|&(j, _)| (j as usize) < first);
+        for &(j, coefficient) in &self.coefficients[begin..] {
+            let Some(derivative) = target.get_mut(j as usize - first) else { break };
+            *derivative = coefficient;
+        }
+    }
+
     /// Adds up the coefficients of each variable, in ascending order of variables.
     pub fn merge(&mut self) {
         self.coefficients.sort_by_key(|&(j, _)| j);
@@ -109,8 +119,9 @@ impl RibModel {
     }
 }
 
-fn all_finite(values: &[f64]) -> bool {
-    values.iter().all(|value| value.is_finite())
+/// Looked at in blocks without a way out, so that the compiler uses vector instructions.
+pub(super) fn all_finite(values: &[f64]) -> bool {
+    values.chunks(64).all(|block| block.iter().fold(true, |finite, value| finite & value.is_finite()))
 }
 
 impl Model for RibModel {
@@ -124,18 +135,17 @@ impl Model for RibModel {
     }
 
     fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        gradient.fill(0.0);
-        for &(j, coefficient) in &self.objective.coefficients {
-            gradient[j as usize] = coefficient;
-        }
         let groups = &self.objective_groups;
         let sum = match self.stretches() {
-            Some(stretches) => stretches.add_gradient(groups, x, gradient),
-            None => groups.iter().map(|group| group.add_gradient(x, gradient)).sum(),
+            Some(stretches) => stretches.gradient(&self.objective, groups, x, gradient),
+            None => {
+                self.objective.gradient(0, gradient);
+                let sum = groups.iter().map(|group| group.add_gradient(x, gradient)).sum();
+                if all_finite(gradient) { sum } else { f64::NAN }
+            }
         };
         let value = self.objective.value(x) + sum;
-        let finite = value.is_finite() && all_finite(gradient);
-        if finite { Ok(value) } else { Err(self.invalid(&self.objective_groups, x, "gradient of the objective")) }
+        if value.is_finite() { Ok(value) } else { Err(self.invalid(groups, x, "gradient of the objective")) }
     }
 
     fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
@@ -143,30 +153,39 @@ impl Model for RibModel {
         for (value, constant) in values.iter_mut().zip(&self.row_constants) {
             *value += constant;
         }
-        match self.stretches() {
+        let finite = match self.stretches() {
             Some(stretches) => stretches.add_rows(&self.row_groups, x, values),
-            None => self.row_groups.iter().for_each(|group| group.add_rows(group.range(), x, 0, values)),
-        }
-        if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "rows")) }
+            None => {
+                self.row_groups.iter().for_each(|group| group.add_rows(group.range(), x, 0, values));
+                all_finite(values)
+            }
+        };
+        if finite { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "rows")) }
     }
 
     fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        values.copy_from_slice(&self.linear_jacobian);
-        match self.stretches() {
-            Some(stretches) => stretches.add_jacobian(&self.row_groups, &self.meta.jacobian, x, values),
-            None => self.row_groups.iter().for_each(|group| group.add_jacobian(group.range(), x, 0, values)),
-        }
-        if all_finite(values) { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "first derivatives of the rows")) }
+        let finite = match self.stretches() {
+            Some(stretches) => stretches.jacobian(&self.linear_jacobian, &self.row_groups, &self.meta.jacobian, x, values),
+            None => {
+                values.copy_from_slice(&self.linear_jacobian);
+                self.row_groups.iter().for_each(|group| group.add_jacobian(group.range(), x, 0, values));
+                all_finite(values)
+            }
+        };
+        if finite { Ok(()) } else { Err(self.invalid(&self.row_groups, x, "first derivatives of the rows")) }
     }
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        values.fill(0.0);
         let groups: Vec<&Group> = self.objective_groups.iter().chain(&self.row_groups).collect();
-        match self.stretches() {
-            Some(stretches) => stretches.add_hessian(&groups, &self.meta.hessian, x, (weight, y), values),
-            None => groups.iter().for_each(|group| group.add_hessian(group.range(), x, weight, y, 0, values)),
-        }
-        if all_finite(values) {
+        let finite = match self.stretches() {
+            Some(stretches) => stretches.hessian(&groups, &self.meta.hessian, x, (weight, y), values),
+            None => {
+                values.fill(0.0);
+                groups.iter().for_each(|group| group.add_hessian(group.range(), x, weight, y, 0, values));
+                all_finite(values)
+            }
+        };
+        if finite {
             return Ok(());
         }
         let groups = if self.objective_groups.iter().any(|group| group.explain(x).is_some()) {

@@ -7,6 +7,9 @@ use super::Pattern;
 use crate::expression::kernel::{Elements, Kernel};
 use crate::expression::tape::Workspace;
 
+/// Elements whose Hessians are added in one call.
+const BATCH: usize = 64;
+
 /// What an element is called when it has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Label {
@@ -170,13 +173,8 @@ impl Group {
         target: &mut [f64],
         workspace: &mut Workspace,
     ) -> f64 {
-        let (k, d) = (self.kernel.inputs(), self.kernel.data());
-        let elements = Elements {
-            inputs: &self.inputs[range.start * k..range.end * k],
-            data: &self.data[range.start * d..range.end * d],
-            weights: &self.weights[range],
-        };
-        self.kernel.add_gradients(&elements, x, first, target, workspace)
+        let weights = &self.weights[range.clone()];
+        self.kernel.add_gradients(&self.elements(range, weights), x, first, target, workspace)
     }
 
     /// Adds the weighted gradients to a dense vector; returns the value (objective groups).
@@ -217,18 +215,29 @@ impl Group {
     /// Hessian; `target` holds its values from `first` on.
     pub fn add_hessian(&self, range: Range<usize>, x: &[f64], weight: f64, y: &[f64], first: usize, target: &mut [f64]) {
         let p = self.kernel.hessian_pattern().len();
-        self.each(range, x, |e, s| {
-            let factor = e.weight * self.rows.get(e.index).map_or(weight, |&row| y[row as usize]);
-            if factor == 0.0 {
-                return;
+        let (mut factors, mut workspace) = ([0.0; BATCH], Workspace::default());
+        for begin in range.clone().step_by(BATCH) {
+            let batch = begin..range.end.min(begin + BATCH);
+            let factors = &mut factors[..batch.len()];
+            for (factor, index) in factors.iter_mut().zip(batch.clone()) {
+                *factor = self.weights[index] * self.rows.get(index).map_or(weight, |&row| y[row as usize]);
             }
-            self.kernel.hessian(&s.x, e.data, &mut s.inner, &mut s.out[..p]);
-            for (&slot, second) in self.hessian_slots[e.index * p..].iter().zip(&s.out[..p]) {
-                if let Some(value) = target.get_mut((slot as usize).wrapping_sub(first)) {
-                    *value += factor * second;
-                }
+            // Rows without a multiplier are not looked at: they may have no value where others do.
+            if factors.iter().any(|&factor| factor != 0.0) {
+                let slots = &self.hessian_slots[batch.start * p..batch.end * p];
+                self.kernel.add_hessians(&self.elements(batch, factors), x, slots, first, target, &mut workspace);
             }
-        });
+        }
+    }
+
+    /// The elements of a range under factors of their own.
+    fn elements<'a>(&'a self, range: Range<usize>, weights: &'a [f64]) -> Elements<'a> {
+        let (k, d) = (self.kernel.inputs(), self.kernel.data());
+        Elements {
+            inputs: &self.inputs[range.start * k..range.end * k],
+            data: &self.data[range.start * d..range.end * d],
+            weights,
+        }
     }
 
     /// The first element without a finite value, gradient or Hessian, and why.

@@ -7,6 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Pattern;
+use super::assembled::{Affine, all_finite};
 use super::elements::Group;
 use crate::expression::tape::Workspace;
 
@@ -79,47 +80,72 @@ impl Stretches {
         })
     }
 
-    /// Adds the objective's gradient; returns the sum of its elements.
-    pub fn add_gradient(&self, groups: &[Group], x: &[f64], gradient: &mut [f64]) -> f64 {
+    /// The objective's gradient, overwritten: affine part and elements. Returns the sum of the elements, NaN where a derivative
+    /// is not finite: what a thread has just written it also clears and checks, while it is near.
+    pub fn gradient(&self, affine: &Affine, groups: &[Group], x: &[f64], gradient: &mut [f64]) -> f64 {
         let sums: Vec<f64> = gradient
             .par_chunks_mut(STRETCH)
             .zip(&self.objective.0)
             .enumerate()
             .map_init(Workspace::default, |workspace, (number, (target, runs))| {
-                let add =
-                    |run: &Run| groups[run.group as usize].add_gradients(run.range(), x, number * STRETCH, target, workspace);
-                runs.iter().map(add).sum::<f64>()
+                let first = number * STRETCH;
+                affine.gradient(first, target);
+                let add = |run: &Run| groups[run.group as usize].add_gradients(run.range(), x, first, target, workspace);
+                let sum = runs.iter().map(add).sum::<f64>();
+                if all_finite(target) { sum } else { f64::NAN }
             })
             .collect();
         sums.iter().sum()
     }
 
-    /// Adds the elements of the rows to their rows.
-    pub fn add_rows(&self, groups: &[Group], x: &[f64], values: &mut [f64]) {
-        values.par_chunks_mut(STRETCH).zip(&self.rows.0).enumerate().for_each(|(number, (target, runs))| {
+    /// Adds the elements of the rows to their rows; says whether the sums are finite.
+    pub fn add_rows(&self, groups: &[Group], x: &[f64], values: &mut [f64]) -> bool {
+        let add = |(number, (target, runs)): (usize, (&mut [f64], &Vec<Run>))| {
             for run in runs {
                 groups[run.group as usize].add_rows(run.range(), x, number * STRETCH, target);
             }
-        });
+            all_finite(target)
+        };
+        values.par_chunks_mut(STRETCH).zip(&self.rows.0).enumerate().map(add).reduce(|| true, |a, b| a && b)
     }
 
-    /// Adds the gradients of the rows' elements to the Jacobian.
-    pub fn add_jacobian(&self, groups: &[Group], pattern: &Pattern, x: &[f64], values: &mut [f64]) {
-        cut(pattern, values).into_par_iter().zip(&self.rows.0).for_each(|((first, target), runs)| {
+    /// The Jacobian's values, overwritten: those of the linear parts and the gradients of the rows' elements; says whether they
+    /// are finite.
+    pub fn jacobian(&self, linear: &[f64], groups: &[Group], pattern: &Pattern, x: &[f64], values: &mut [f64]) -> bool {
+        each(pattern, &self.rows, values, |first, target, runs| {
+            target.copy_from_slice(&linear[first..first + target.len()]);
             for run in runs {
                 groups[run.group as usize].add_jacobian(run.range(), x, first, target);
             }
-        });
+        })
     }
 
-    /// Adds the second derivatives of all elements, groups of the objective first.
-    pub fn add_hessian(&self, groups: &[&Group], pattern: &Pattern, x: &[f64], (weight, y): (f64, &[f64]), values: &mut [f64]) {
-        cut(pattern, values).into_par_iter().zip(&self.all.0).for_each(|((first, target), runs)| {
+    /// The second derivatives of all elements, overwritten, groups of the objective first; says whether they are finite.
+    pub fn hessian(
+        &self,
+        groups: &[&Group],
+        pattern: &Pattern,
+        x: &[f64],
+        (weight, y): (f64, &[f64]),
+        values: &mut [f64],
+    ) -> bool {
+        each(pattern, &self.all, values, |first, target, runs| {
+            target.fill(0.0);
             for run in runs {
                 groups[run.group as usize].add_hessian(run.range(), x, weight, y, first, target);
             }
-        });
+        })
     }
+}
+
+/// Fills the values along a pattern, stretch by stretch of its rows, by the position each begins at and the elements that reach
+/// it; says whether all are finite.
+fn each(pattern: &Pattern, reach: &Reach, values: &mut [f64], fill: impl Fn(usize, &mut [f64], &[Run]) + Sync) -> bool {
+    let filled = |((first, target), runs): ((usize, &mut [f64]), &Vec<Run>)| {
+        fill(first, target, runs);
+        all_finite(target)
+    };
+    cut(pattern, values).into_par_iter().zip(&reach.0).map(filled).reduce(|| true, |a, b| a && b)
 }
 
 /// The values along a pattern, stretch by stretch of its rows, with the position each begins at.

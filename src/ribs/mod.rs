@@ -6,5 +6,6 @@
 mod frusta;
 pub mod law;
 mod part;
+mod row;
 
 pub use part::Part;

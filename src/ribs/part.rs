@@ -2,7 +2,7 @@
 
 use super::frusta;
 use super::law::Law;
-use crate::expression::kernel::{Elements, Kernel, one_by_one};
+use crate::expression::kernel::{Elements, Kernel, gradients_one_by_one, hessians_one_by_one};
 use crate::expression::tape::Workspace;
 
 /// The kernel of one part between two ends.
@@ -97,20 +97,6 @@ impl Part {
             }
         }
     }
-
-    /// The full 4×4 Hessian's lower triangle, in the order of [`FOUR`].
-    fn frustum_hessian(x: [f64; 4]) -> [f64; 10] {
-        let g = (x[0] * x[1]).sqrt() * (x[2] * x[3]).sqrt() / 12.0;
-        let inverse = x.map(|x| 1.0 / x);
-        let mut hessian = FOUR.map(|(i, j)| {
-            let scaled = g * inverse[i as usize] * inverse[j as usize];
-            if i == j { -scaled } else { scaled }
-        });
-        // The two dimensions of one end also meet in their own area.
-        hessian[1] += 1.0 / 3.0;
-        hessian[8] += 1.0 / 3.0;
-        hessian
-    }
 }
 
 /// Position of (i, j) in a row-by-row lower triangle.
@@ -165,12 +151,12 @@ impl Kernel for Part {
         if self.law == Law::Frustum && !self.difference {
             return frusta::add_gradients(elements, x, first, target);
         }
-        one_by_one(self, elements, x, first, target, workspace)
+        gradients_one_by_one(self, elements, x, first, target, workspace)
     }
 
     fn hessian(&self, x: &[f64], data: &[f64], _: &mut Workspace, hessian: &mut [f64]) {
         let full = match self.law {
-            Law::Frustum => Part::frustum_hessian(self.lengths(x, data)),
+            Law::Frustum => frusta::hessians(&self.lengths(x, data).map(|length| [length])).map(|[second]| second),
             // In the order of FOUR: w1·h1 and w2·h2 weigh 2, the crossed products 1.
             Law::Prismatoid => [0.0, 2.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0].map(|weight| weight / 6.0),
         };
@@ -185,6 +171,21 @@ impl Kernel for Part {
                 *slot = full[packed(i as usize, j as usize)];
             }
         }
+    }
+
+    fn add_hessians(
+        &self,
+        elements: &Elements<'_>,
+        x: &[f64],
+        slots: &[u32],
+        first: usize,
+        target: &mut [f64],
+        workspace: &mut Workspace,
+    ) {
+        if self.law == Law::Frustum && !self.difference {
+            return frusta::add_hessians(elements, x, slots, first, target);
+        }
+        hessians_one_by_one(self, elements, x, slots, first, target, workspace);
     }
 
     fn explain(&self, x: &[f64], data: &[f64]) -> Option<String> {
