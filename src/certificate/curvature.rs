@@ -198,9 +198,14 @@ impl Hessian {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
         let mut part = vec![0.0; pattern.len()];
+        let is_linear = &point.meta().row_is_linear;
         // The objective, rows at their upper and rows at their lower limits.
         for (weight, sign) in [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
             let chosen: Vec<f64> = y.iter().map(|&y| if y * sign > 0.0 { y } else { 0.0 }).collect();
+            // All entries would be zero where no row bends.
+            if weight == 0.0 && chosen.iter().zip(is_linear).all(|(&y, &is_linear)| is_linear || y == 0.0) {
+                continue;
+            }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
                 let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());

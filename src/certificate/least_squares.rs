@@ -6,6 +6,7 @@
 
 use super::active_set::{self, ActiveSet};
 use super::matrix::Symmetric;
+use super::normal_equations::NormalEquations;
 use crate::linear_algebra::FactorizationError;
 
 /// The proximal weight ε², relative to columns of size one: below the squares of the distances that decide.
@@ -32,18 +33,28 @@ pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, Factoriza
             return Ok(y);
         }
     }
-    pivoted(g, columns, Symmetric::new)
+    pivoted(g, columns, Symmetric::new).or_else(|_| pivoted(g, columns, Symmetric::sparse))
 }
 
-/// The same for one of very many small systems.
-pub(super) fn solve_one_of_many(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
+/// The same for one of very many small systems, with room used over and over again.
+pub(super) fn solve_one_of_many(
+    g: &[f64],
+    columns: &[Column],
+    room: &mut NormalEquations,
+) -> Result<Vec<f64>, FactorizationError> {
+    if room.fill(g, columns) {
+        let found = Pivoting::new(g, columns, &mut *room).solve(&vec![0.0; columns.len()]);
+        if found.is_ok() {
+            return found;
+        }
+    }
     pivoted(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
 }
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
 
 fn pivoted(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
-    let mut pivoting = Pivoting::new(g, columns, build)?;
+    let mut pivoting = Pivoting::new(g, columns, Augmented::new(g, columns, build)?);
     repeated(columns.len(), |centre| pivoting.solve(centre))
 }
 
@@ -62,25 +73,25 @@ fn repeated<E>(columns: usize, mut solve: impl FnMut(&[f64]) -> Result<Vec<f64>,
     Ok(y)
 }
 
-struct Pivoting<'a> {
-    g: &'a [f64],
-    columns: &'a [Column],
-    matrix: Symmetric,
-    basic: Vec<bool>,
-    /// Whether the factors are those of `basic`.
-    is_factored: bool,
+/// Least squares over some of the columns, whatever their signs.
+pub(super) trait Stationary {
+    /// The minimiser y over the `basic` columns, zero elsewhere, with the proximal term around `centre`. `is_new`: the columns
+    /// are others than the last time.
+    fn stationary(&mut self, basic: &[bool], is_new: bool, centre: &[f64]) -> Result<Vec<f64>, FactorizationError>;
 }
 
-impl<'a> Pivoting<'a> {
-    fn new(g: &'a [f64], columns: &'a [Column], build: Build) -> Result<Self, FactorizationError> {
-        let p = g.len() as u32;
-        let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
-        for (k, column) in columns.iter().enumerate() {
-            positions.extend(column.entries.iter().map(|&(row, _)| (p + k as u32, row)));
-        }
-        let matrix = build(g.len() + columns.len(), &positions)?;
+struct Pivoting<'a, S> {
+    g: &'a [f64],
+    columns: &'a [Column],
+    basic: Vec<bool>,
+    is_new: bool,
+    method: S,
+}
+
+impl<'a, S: Stationary> Pivoting<'a, S> {
+    fn new(g: &'a [f64], columns: &'a [Column], method: S) -> Self {
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Ok(Pivoting { g, columns, matrix, basic, is_factored: false })
+        Pivoting { g, columns, basic, is_new: true, method }
     }
 
     /// The minimiser with the proximal term around `centre`.
@@ -100,7 +111,7 @@ impl<'a> Pivoting<'a> {
             for &k in swapped {
                 self.basic[k] = !self.basic[k];
             }
-            self.is_factored = false;
+            self.is_new = true;
             y = self.stationary(centre)?;
         }
         for (y, column) in y.iter_mut().zip(self.columns) {
@@ -111,26 +122,9 @@ impl<'a> Pivoting<'a> {
         Ok(y)
     }
 
-    /// The stationary point over the basic columns, from [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre].
     fn stationary(&mut self, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
-        if !self.is_factored {
-            self.factor()?;
-            self.is_factored = true;
-        }
-        let (p, columns) = (self.g.len(), self.columns);
-        let pull = |k: usize| if self.basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
-        let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..columns.len()).map(pull)).collect();
-        let mut solution = self.matrix.solve(&right)?;
-        Ok(solution.split_off(p))
-    }
-
-    fn factor(&mut self) -> Result<(), FactorizationError> {
-        let (basic, columns) = (&self.basic, self.columns);
-        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
-        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
-        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
-        let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
-        self.matrix.factor(entries).map(|_| ())
+        let is_new = std::mem::replace(&mut self.is_new, false);
+        self.method.stationary(&self.basic, is_new, centre)
     }
 
     /// Columns on the wrong side: basic with the wrong sign, or at zero although moving would help.
@@ -148,6 +142,45 @@ impl<'a> Pivoting<'a> {
             if self.basic[k] { y[k] * column.sign < -1e-15 } else { slope < -1e-15 }
         };
         (0..self.columns.len()).filter(|&k| self.columns[k].sign != 0.0).filter(is_wrong).collect()
+    }
+}
+
+/// From [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre], over the basic columns.
+struct Augmented<'a> {
+    g: &'a [f64],
+    columns: &'a [Column],
+    matrix: Symmetric,
+}
+
+impl<'a> Augmented<'a> {
+    fn new(g: &'a [f64], columns: &'a [Column], build: Build) -> Result<Self, FactorizationError> {
+        let p = g.len() as u32;
+        let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
+        for (k, column) in columns.iter().enumerate() {
+            positions.extend(column.entries.iter().map(|&(row, _)| (p + k as u32, row)));
+        }
+        Ok(Augmented { g, columns, matrix: build(g.len() + columns.len(), &positions)? })
+    }
+
+    fn factor(&mut self, basic: &[bool]) -> Result<(), FactorizationError> {
+        let columns = self.columns;
+        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
+        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
+        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
+        let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
+        self.matrix.factor(entries).map(|_| ())
+    }
+}
+
+impl Stationary for Augmented<'_> {
+    fn stationary(&mut self, basic: &[bool], is_new: bool, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+        if is_new {
+            self.factor(basic)?;
+        }
+        let pull = |k: usize| if basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
+        let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..basic.len()).map(pull)).collect();
+        let mut solution = self.matrix.solve(&right)?;
+        Ok(solution.split_off(self.g.len()))
     }
 }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
 use super::least_squares::{self, Column};
+use super::normal_equations::NormalEquations;
 use super::point::Point;
 use crate::model::components::Partition;
 
@@ -33,7 +34,9 @@ pub(super) fn find(point: &Point<'_>, guess: Option<&[f64]>) -> Multipliers {
             .into_par_iter()
             .with_min_len(BATCH)
             .filter(|&group| !partition.rows(group).is_empty())
-            .map(|group| Group { point, guess, partition: &partition, group, near: &near }.row_multipliers(many))
+            .map_init(NormalEquations::default, |room, group| {
+                Group { point, guess, partition: &partition, group, near: &near }.row_multipliers(many.then_some(room))
+            })
             .collect();
         for (i, y) in solved.into_iter().flatten() {
             rows[i] += y;
@@ -78,16 +81,16 @@ struct System {
 const OUT: u32 = u32::MAX;
 
 impl Group<'_> {
-    /// Row by row what its multiplier gains.
-    fn row_multipliers(&self, many: bool) -> Vec<(usize, f64)> {
-        if many {
+    /// Row by row what its multiplier gains. With room where groups are many and small.
+    fn row_multipliers(&self, mut room: Option<&mut NormalEquations>) -> Vec<(usize, f64)> {
+        if room.is_some() {
             let small = self.system(true);
-            let found = self.solved(&small, many);
+            let found = self.solved(&small, room.as_deref_mut());
             if small.absorbing.is_empty() || self.bounds_push_back(&small, &found) {
                 return found;
             }
         }
-        self.solved(&self.system(false), many)
+        self.solved(&self.system(false), room)
     }
 
     /// The group's rows, and the bounds of the variables they touch; other variables need no solving. A variable exactly on
@@ -147,12 +150,15 @@ impl Group<'_> {
         Column { entries, sign: candidate.sign, weight, basic }
     }
 
-    fn solved(&self, system: &System, many: bool) -> Vec<(usize, f64)> {
-        let solve = if many { least_squares::solve_one_of_many } else { least_squares::solve };
+    fn solved(&self, system: &System, room: Option<&mut NormalEquations>) -> Vec<(usize, f64)> {
         if system.columns.is_empty() {
             return Vec::new();
         }
-        let scaled = solve(&system.gradient, &system.columns).unwrap_or_default();
+        let solved = match room {
+            Some(room) => least_squares::solve_one_of_many(&system.gradient, &system.columns, room),
+            None => least_squares::solve(&system.gradient, &system.columns),
+        };
+        let scaled = solved.unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {
             Owner::Row(i) => Some((i, value * self.point.sigma / self.point.slopes[i])),
             Owner::Bound(_) => None,
