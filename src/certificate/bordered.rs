@@ -17,7 +17,8 @@ const LARGEST_BORDER: usize = 2048;
 /// Blocks of more unknowns are not small, and fewer blocks not worth it.
 const LARGEST_BLOCK: usize = 64;
 const FEWEST_BLOCKS: usize = 64;
-/// Refinement goes on while it helps; a solution whose residual stays above this share of the right-hand side is none.
+/// Refinement goes on while it helps; a solution whose residual stays above this share of its own and the right-hand side's size is
+/// none.
 const REFINEMENTS: usize = 4;
 const ACCURATE: f64 = 1e-10;
 
@@ -188,7 +189,7 @@ impl Bordered {
                 break;
             }
         }
-        (largest(&residual) <= ACCURATE * largest(right)).then_some(x)
+        (largest(&residual) <= ACCURATE * (largest(right) + largest(&x))).then_some(x)
     }
 
     fn solved(&self, right: &[f64]) -> Option<Vec<f64>> {
@@ -283,8 +284,9 @@ mod tests {
         assert_eq!((bordered.border.len(), bordered.blocks.len()), (2, 100));
         assert_eq!(bordered.factor(&values).unwrap(), sparse.factor(&values).unwrap());
         let right: Vec<f64> = (0..402).map(|k| f64::from(k % 11) - 5.0).collect();
-        let residual = bordered.residual(&values, &right, &bordered.solve(&values, &right).unwrap());
-        assert!(largest(&residual) < 1e-9, "{}", largest(&residual));
+        let x = bordered.solve(&values, &right).unwrap();
+        let residual = bordered.residual(&values, &right, &x);
+        assert!(largest(&residual) < 1e-13 * largest(&x), "{} {}", largest(&residual), largest(&x));
     }
 
     #[test]

@@ -224,7 +224,8 @@ pub(super) fn weight(size: f64) -> f64 {
     size + FLOOR
 }
 
-fn places(variables: usize, free: &[usize]) -> Vec<u32> {
+/// Where each variable stands among the free ones; `u32::MAX` for the others.
+pub(super) fn places(variables: usize, free: &[usize]) -> Vec<u32> {
     let mut place = vec![u32::MAX; variables];
     for (k, &j) in free.iter().enumerate() {
         place[j] = k as u32;

@@ -14,9 +14,9 @@ pub(super) const PROXIMAL: f64 = 1e-13;
 const REPETITIONS: usize = 12;
 
 /// One column of B with its sign and weight.
-pub(super) struct Column {
+pub(super) struct Column<'a> {
     /// (position in g, value)
-    pub(super) entries: Vec<(u32, f64)>,
+    pub(super) entries: &'a [(u32, f64)],
     /// +1: y ≥ 0; −1: y ≤ 0; 0: free.
     pub(super) sign: f64,
     /// The column's entry of T.
@@ -26,7 +26,7 @@ pub(super) struct Column {
 }
 
 /// The minimiser y.
-pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
+pub(super) fn solve(g: &[f64], columns: &[Column<'_>]) -> Result<Vec<f64>, FactorizationError> {
     if active_set::fits(g.len(), columns.len()) {
         let mut set = ActiveSet::new(g, columns);
         if let Ok(y) = repeated(columns.len(), |centre| set.solve(centre).ok_or(())) {
@@ -39,7 +39,7 @@ pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, Factoriza
 /// The same for one of very many small systems, with room used over and over again.
 pub(super) fn solve_one_of_many(
     g: &[f64],
-    columns: &[Column],
+    columns: &[Column<'_>],
     room: &mut NormalEquations,
 ) -> Result<Vec<f64>, FactorizationError> {
     if room.fill(g, columns) {
@@ -53,7 +53,7 @@ pub(super) fn solve_one_of_many(
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
 
-fn pivoted(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
+fn pivoted(g: &[f64], columns: &[Column<'_>], build: Build) -> Result<Vec<f64>, FactorizationError> {
     let mut pivoting = Pivoting::new(g, columns, Augmented::new(g, columns, build)?);
     repeated(columns.len(), |centre| pivoting.solve(centre))
 }
@@ -82,14 +82,14 @@ pub(super) trait Stationary {
 
 struct Pivoting<'a, S> {
     g: &'a [f64],
-    columns: &'a [Column],
+    columns: &'a [Column<'a>],
     basic: Vec<bool>,
     is_new: bool,
     method: S,
 }
 
 impl<'a, S: Stationary> Pivoting<'a, S> {
-    fn new(g: &'a [f64], columns: &'a [Column], method: S) -> Self {
+    fn new(g: &'a [f64], columns: &'a [Column<'a>], method: S) -> Self {
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
         Pivoting { g, columns, basic, is_new: true, method }
     }
@@ -131,7 +131,7 @@ impl<'a, S: Stationary> Pivoting<'a, S> {
     fn wrong(&self, y: &[f64], centre: &[f64]) -> Vec<usize> {
         let mut residual = self.g.to_vec();
         for (column, &y) in self.columns.iter().zip(y) {
-            for &(row, value) in &column.entries {
+            for &(row, value) in column.entries {
                 residual[row as usize] += value * y;
             }
         }
@@ -148,12 +148,12 @@ impl<'a, S: Stationary> Pivoting<'a, S> {
 /// From [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre], over the basic columns.
 struct Augmented<'a> {
     g: &'a [f64],
-    columns: &'a [Column],
+    columns: &'a [Column<'a>],
     matrix: Symmetric,
 }
 
 impl<'a> Augmented<'a> {
-    fn new(g: &'a [f64], columns: &'a [Column], build: Build) -> Result<Self, FactorizationError> {
+    fn new(g: &'a [f64], columns: &'a [Column<'a>], build: Build) -> Result<Self, FactorizationError> {
         let p = g.len() as u32;
         let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
         for (k, column) in columns.iter().enumerate() {
@@ -164,7 +164,8 @@ impl<'a> Augmented<'a> {
 
     fn factor(&mut self, basic: &[bool]) -> Result<(), FactorizationError> {
         let columns = self.columns;
-        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
+        let diagonal =
+            |(k, column): (usize, &Column<'_>)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
         let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
         let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
         let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
@@ -188,8 +189,8 @@ impl Stationary for Augmented<'_> {
 mod tests {
     use super::*;
 
-    fn column(entries: &[(u32, f64)], sign: f64) -> Column {
-        Column { entries: entries.to_vec(), sign, weight: 0.0, basic: true }
+    fn column(entries: &[(u32, f64)], sign: f64) -> Column<'_> {
+        Column { entries, sign, weight: 0.0, basic: true }
     }
 
     #[test]
@@ -216,7 +217,8 @@ mod tests {
     #[test]
     fn of_two_explanations_the_nearer_limit_carries_the_multiplier() {
         // Columns 0 and 1 alone balance g; 2 and 3 could take their place, but lie 5e−6 away.
-        let far = |entry: u32| Column { weight: 5e-6, ..column(&[(entry, 1.0)], -1.0) };
+        let unit = [[(0, 1.0)], [(1, 1.0)]];
+        let far = |entry: usize| Column { weight: 5e-6, ..column(&unit[entry], -1.0) };
         let y =
             solve(&[1.0, 1.0, 0.0], &[column(&[(0, 1.0), (2, 1.0)], -1.0), column(&[(1, 1.0), (2, -1.0)], -1.0), far(0), far(1)])
                 .unwrap();
@@ -227,7 +229,8 @@ mod tests {
     fn it_agrees_with_trying_every_set_of_signs() {
         let g = [-1.0, 0.3, -0.7, 0.2];
         let dense = [[1.0, 0.2, -0.5, 0.1], [0.4, -1.0, 0.3, 0.8], [-0.6, 0.5, 1.0, -0.2], [0.9, 0.9, -0.1, 1.0]];
-        let columns: Vec<_> = dense.iter().map(|c| column(&[(0, c[0]), (1, c[1]), (2, c[2]), (3, c[3])], 1.0)).collect();
+        let entries = dense.map(|c| [(0, c[0]), (1, c[1]), (2, c[2]), (3, c[3])]);
+        let columns: Vec<_> = entries.iter().map(|entries| column(entries, 1.0)).collect();
         let y = solve(&g, &columns).unwrap();
         let residual: Vec<f64> = (0..4).map(|r| g[r] + (0..4).map(|k| dense[k][r] * y[k]).sum::<f64>()).collect();
         for k in 0..4 {

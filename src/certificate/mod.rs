@@ -13,6 +13,7 @@ mod least_squares;
 mod lower_bound;
 mod matrix;
 mod multipliers;
+mod narrow;
 mod normal_equations;
 mod outward;
 mod pieces;

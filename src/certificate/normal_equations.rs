@@ -28,7 +28,7 @@ pub(super) struct NormalEquations {
 
 impl NormalEquations {
     /// Takes a system; false where it is too large.
-    pub(super) fn fill(&mut self, g: &[f64], columns: &[Column]) -> bool {
+    pub(super) fn fill(&mut self, g: &[f64], columns: &[Column<'_>]) -> bool {
         let (p, count) = (g.len(), columns.len());
         if count > MOST_COLUMNS {
             return false;
@@ -112,8 +112,8 @@ mod tests {
     use super::*;
     use crate::certificate::least_squares::{solve, solve_one_of_many};
 
-    fn column(entries: &[(u32, f64)], sign: f64, weight: f64) -> Column {
-        Column { entries: entries.to_vec(), sign, weight, basic: true }
+    fn column(entries: &[(u32, f64)], sign: f64, weight: f64) -> Column<'_> {
+        Column { entries, sign, weight, basic: true }
     }
 
     #[test]
