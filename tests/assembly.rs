@@ -122,6 +122,32 @@ fn closed_forms_and_expressions_give_the_same_volume() {
 }
 
 #[test]
+fn computed_dimensions_of_one_shape_keep_their_own_data() {
+    // The ratio stands in the dimension and in the row: one slot for both. Section r is linked to a number and goes its own way.
+    let mut text = String::from("[[constraints]]\nfor = \"sections\"\nrequire = \"ratio*Ix/c <= 1\"\n");
+    let sections = [("p", 1.5, 2.0, "ratio*b + b"), ("q", 2.5, 3.0, "ratio*b + b"), ("r", 2.0, 5.0, "")];
+    for (name, ratio, c, h) in sections {
+        let own = if name == "r" { "kind = \"h-beam\"\ntw = 0.01\nhw = 0.3\ntf = \"ratio*tw\"" } else { "kind = \"rectangle\"" };
+        let h = if name == "r" { String::new() } else { format!("h = \"{h}\"\n") };
+        text += &format!("[sections.{name}]\n{own}\n{h}b = {{ lower = 0.1, upper = 0.3, start = 0.2 }}\n");
+        text += &format!("data = {{ ratio = {ratio}, c = {c} }}\n");
+    }
+    text += "[[ribs]]\nname = \"one\"\nfrom = \"p\"\nto = \"q\"\nlength = 2.0\n";
+    text += "[[ribs]]\nname = \"two\"\nfrom = \"q\"\nto = \"p\"\nlength = 3.0\n";
+    let model = model(&text);
+    assert_derivatives(&model, "computed dimensions with data");
+    let (x, mut rows) = (&model.meta().start, [0.0; 3]);
+    let heights = [2.5 * 0.2, 3.5 * 0.2];
+    let areas = heights.map(|h| 0.2 * h);
+    let volume = 5.0 / 3.0 * (areas[0] + areas[1] + f64::sqrt(areas[0] * areas[1]));
+    assert!((model.objective(x).unwrap() / volume - 1.0).abs() < 1e-14);
+    model.constraints(x, &mut rows).unwrap();
+    let inertias = heights.map(|h| 0.2 * h.powi(3) / 12.0);
+    assert!((rows[0] / (1.5 * inertias[0] / 2.0) - 1.0).abs() < 1e-14, "{rows:?}");
+    assert!((rows[1] / (2.5 * inertias[1] / 3.0) - 1.0).abs() < 1e-14, "{rows:?}");
+}
+
+#[test]
 fn items_of_one_shape_share_their_kernels() {
     let text = ribs_of("rectangle", "b = {lower=0.1,upper=0.3}\nh = {lower=0.2,upper=0.5}", &["A", "Ix"]);
     let (objective, rows, kernels) = model(&text).elements();

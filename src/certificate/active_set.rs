@@ -23,14 +23,14 @@ pub(super) fn fits(variables: usize, columns: usize) -> bool {
 /// The columns in use and their multipliers.
 pub(super) struct ActiveSet<'a> {
     g: &'a [f64],
-    columns: &'a [Column],
+    columns: &'a [Column<'a>],
     /// Columns in use, in the order they came in.
     basic: Vec<usize>,
     y: Vec<f64>,
 }
 
 impl<'a> ActiveSet<'a> {
-    pub(super) fn new(g: &'a [f64], columns: &'a [Column]) -> Self {
+    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>]) -> Self {
         let basic = (0..columns.len()).filter(|&k| columns[k].sign == 0.0).collect();
         ActiveSet { g, columns, basic, y: vec![0.0; columns.len()] }
     }
@@ -100,7 +100,7 @@ impl<'a> ActiveSet<'a> {
         right.rows_mut(0, p).iter_mut().zip(self.g).for_each(|(right, g)| *right = -g);
         for (at, &k) in self.basic.iter().enumerate() {
             let column = &self.columns[k];
-            for &(row, value) in &column.entries {
+            for &(row, value) in column.entries {
                 matrix[(row as usize, at)] += value;
             }
             let weight = (column.weight * column.weight + PROXIMAL).sqrt();
@@ -129,13 +129,15 @@ mod tests {
     fn far_more_columns_than_variables_satisfy_the_optimality_conditions() {
         let (p, count) = (12u64, 400u64);
         let g: Vec<f64> = (0..p).map(scattered).collect();
+        let entries = |k: u64| (0..p).map(|row| (row as u32, scattered(1000 + k * p + row))).collect();
+        let all: Vec<Vec<(u32, f64)>> = (0..count).map(entries).collect();
         let column = |k: u64| Column {
-            entries: (0..p).map(|row| (row as u32, scattered(1000 + k * p + row))).collect(),
+            entries: &all[k as usize],
             sign: if k.is_multiple_of(7) { -1.0 } else { 1.0 },
             weight: 0.0,
             basic: true,
         };
-        let columns: Vec<Column> = (0..count).map(column).collect();
+        let columns: Vec<Column<'_>> = (0..count).map(column).collect();
         assert!(fits(g.len(), columns.len()));
         let y = solve(&g, &columns).unwrap();
         let mut residual = g.clone();
@@ -152,9 +154,10 @@ mod tests {
     fn rows_that_meet_in_one_point_share_what_is_needed() {
         // Σx with x_i + x_j ≥ 2 for all pairs: every row is active at 1; the residual must vanish.
         let n = 20u32;
-        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-        let column = |(i, j)| Column { entries: vec![(i, 1.0), (j, 1.0)], sign: -1.0, weight: 0.0, basic: true };
-        let columns: Vec<Column> = pairs.map(column).collect();
+        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| [(i, 1.0), (j, 1.0)]));
+        let pairs: Vec<[(u32, f64); 2]> = pairs.collect();
+        let column = |entries| Column { entries, sign: -1.0, weight: 0.0, basic: true };
+        let columns: Vec<Column<'_>> = pairs.iter().map(|pair| column(&pair[..])).collect();
         let y = solve(&vec![1.0; n as usize], &columns).unwrap();
         let mut residual = vec![1.0; n as usize];
         for (column, y) in columns.iter().zip(&y) {

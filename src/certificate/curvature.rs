@@ -7,6 +7,7 @@
 //! makes of a flat direction does not count.
 
 use super::kkt::Kkt;
+use super::narrow;
 use super::pieces;
 use super::point::Point;
 use super::{Side, multipliers::Multipliers};
@@ -130,15 +131,27 @@ pub(super) fn judge(
     let (free, held) = (&choice.free, &choice.held);
     // The rows alone make a far sparser matrix.
     let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
-    let mut kkt = Kkt::new(point, hessian, free, held)?;
-    let mut singular = kkt.bends_down(-ROUNDING)?;
     // What bends up beyond rounding does not bend down.
-    let mut escape = if singular && kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
+    let bends_up = matches!(narrow::bends_up(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
+    let (mut singular, mut escape) = if bends_up { (false, None) } else { whole(point, hessian, free, held)? };
     if escape.is_none() && !dependent {
         escape = one_sided(point, active, hessian, choice)?;
     }
     singular |= escape.is_some();
     Ok(Curvature { singular, escape, dependent })
+}
+
+/// Whether S is singular or worse on the null space of the rows, and a direction in which it bends down.
+fn whole(
+    point: &Point<'_>,
+    hessian: &Hessian,
+    free: &[usize],
+    held: &[usize],
+) -> Result<(bool, Option<Vec<f64>>), FactorizationError> {
+    let mut kkt = Kkt::new(point, hessian, free, held)?;
+    let singular = kkt.bends_down(-ROUNDING)?;
+    let escape = if singular && kkt.bends_down(ROUNDING)? { kkt.lowest_direction(ROUNDING)? } else { None };
+    Ok((singular, escape))
 }
 
 /// Weakly active limits hold on one side only: a direction that leaves one of them inwards must not bend down either (or a
@@ -203,9 +216,14 @@ impl Hessian {
         let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
         let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
         let mut part = vec![0.0; pattern.len()];
+        let is_linear = &point.meta().row_is_linear;
         // The objective, rows at their upper and rows at their lower limits.
         for (weight, sign) in [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
             let chosen: Vec<f64> = y.iter().map(|&y| if y * sign > 0.0 { y } else { 0.0 }).collect();
+            // All entries would be zero where no row bends.
+            if weight == 0.0 && chosen.iter().zip(is_linear).all(|(&y, &is_linear)| is_linear || y == 0.0) {
+                continue;
+            }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
                 let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());

@@ -45,20 +45,21 @@ impl<'a> Kkt<'a> {
             (row, column) => Some((row, column, hessian.values[at])),
         };
         let entries = point.meta().hessian.iter().enumerate().filter_map(entry).collect();
-        Kkt::assemble(point, free, held, entries, free.iter().map(|&j| hessian.size[j]).collect())
+        let size = free.iter().map(|&j| hessian.size[j]).collect();
+        Kkt::assemble(point, free, held, (entries, size), Symmetric::curved)
     }
 
     /// Only A matters.
     pub(super) fn without_hessian(point: &'a Point<'a>, free: &'a [usize], held: &[usize]) -> Result<Self, FactorizationError> {
-        Kkt::assemble(point, free, held, Vec::new(), vec![0.0; free.len()])
+        Kkt::assemble(point, free, held, (Vec::new(), vec![0.0; free.len()]), Symmetric::new)
     }
 
     fn assemble(
         point: &'a Point<'a>,
         free: &'a [usize],
         held: &[usize],
-        hessian: Vec<(u32, u32, f64)>,
-        size: Vec<f64>,
+        (hessian, size): (Vec<(u32, u32, f64)>, Vec<f64>),
+        build: impl Fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>,
     ) -> Result<Self, FactorizationError> {
         let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
         let (mut rows, mut slopes) = (Vec::new(), Vec::with_capacity(held.len()));
@@ -76,7 +77,7 @@ impl<'a> Kkt<'a> {
         let mut positions: Vec<_> = (0..p + held.len() as u32).map(|k| (k, k)).collect();
         positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
         positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
-        let matrix = Symmetric::curved(free.len() + held.len(), &positions)?;
+        let matrix = build(free.len() + held.len(), &positions)?;
         Ok(Kkt { point, free, hessian, rows, size, slopes, held: held.len(), matrix })
     }
 
@@ -222,7 +223,8 @@ pub(super) fn weight(size: f64) -> f64 {
     size + FLOOR
 }
 
-fn places(variables: usize, free: &[usize]) -> Vec<u32> {
+/// Where each variable stands among the free ones; `u32::MAX` for the others.
+pub(super) fn places(variables: usize, free: &[usize]) -> Vec<u32> {
     let mut place = vec![u32::MAX; variables];
     for (k, &j) in free.iter().enumerate() {
         place[j] = k as u32;

@@ -6,6 +6,7 @@
 
 use super::active_set::{self, ActiveSet};
 use super::matrix::Symmetric;
+use super::normal_equations::NormalEquations;
 use crate::linear_algebra::FactorizationError;
 
 /// The proximal weight ε², relative to columns of size one: below the squares of the distances that decide.
@@ -13,9 +14,9 @@ pub(super) const PROXIMAL: f64 = 1e-13;
 const REPETITIONS: usize = 12;
 
 /// One column of B with its sign and weight.
-pub(super) struct Column {
+pub(super) struct Column<'a> {
     /// (position in g, value)
-    pub(super) entries: Vec<(u32, f64)>,
+    pub(super) entries: &'a [(u32, f64)],
     /// +1: y ≥ 0; −1: y ≤ 0; 0: free.
     pub(super) sign: f64,
     /// The column's entry of T.
@@ -24,7 +25,7 @@ pub(super) struct Column {
     pub(super) basic: bool,
 }
 
-impl Column {
+impl Column<'_> {
     /// bᵀr
     pub(super) fn dot(&self, residual: &[f64]) -> f64 {
         self.entries.iter().map(|&(row, value)| value * residual[row as usize]).sum()
@@ -32,10 +33,10 @@ impl Column {
 }
 
 /// g + By
-pub(super) fn residual(g: &[f64], columns: &[Column], y: &[f64]) -> Vec<f64> {
+pub(super) fn residual(g: &[f64], columns: &[Column<'_>], y: &[f64]) -> Vec<f64> {
     let mut residual = g.to_vec();
     for (column, &y) in columns.iter().zip(y) {
-        for &(row, value) in &column.entries {
+        for &(row, value) in column.entries {
             residual[row as usize] += value * y;
         }
     }
@@ -43,25 +44,35 @@ pub(super) fn residual(g: &[f64], columns: &[Column], y: &[f64]) -> Vec<f64> {
 }
 
 /// The minimiser y.
-pub(super) fn solve(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
+pub(super) fn solve(g: &[f64], columns: &[Column<'_>]) -> Result<Vec<f64>, FactorizationError> {
     if active_set::fits(g.len(), columns.len()) {
         let mut set = ActiveSet::new(g, columns);
         if let Ok(y) = repeated(columns.len(), |centre| set.solve(centre).ok_or(())) {
             return Ok(y);
         }
     }
-    pivoted(g, columns, Symmetric::new)
+    pivoted(g, columns, Symmetric::new).or_else(|_| pivoted(g, columns, Symmetric::sparse))
 }
 
-/// The same for one of very many small systems.
-pub(super) fn solve_one_of_many(g: &[f64], columns: &[Column]) -> Result<Vec<f64>, FactorizationError> {
+/// The same for one of very many small systems, with room used over and over again.
+pub(super) fn solve_one_of_many(
+    g: &[f64],
+    columns: &[Column<'_>],
+    room: &mut NormalEquations,
+) -> Result<Vec<f64>, FactorizationError> {
+    if room.fill(g, columns) {
+        let found = Pivoting::new(g, columns, &mut *room).solve(&vec![0.0; columns.len()]);
+        if found.is_ok() {
+            return found;
+        }
+    }
     pivoted(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
 }
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
 
-fn pivoted(g: &[f64], columns: &[Column], build: Build) -> Result<Vec<f64>, FactorizationError> {
-    let mut pivoting = Pivoting::new(g, columns, build)?;
+fn pivoted(g: &[f64], columns: &[Column<'_>], build: Build) -> Result<Vec<f64>, FactorizationError> {
+    let mut pivoting = Pivoting::new(g, columns, Augmented::new(g, columns, build)?);
     repeated(columns.len(), |centre| pivoting.solve(centre))
 }
 
@@ -80,25 +91,25 @@ fn repeated<E>(columns: usize, mut solve: impl FnMut(&[f64]) -> Result<Vec<f64>,
     Ok(y)
 }
 
-struct Pivoting<'a> {
-    g: &'a [f64],
-    columns: &'a [Column],
-    matrix: Symmetric,
-    basic: Vec<bool>,
-    /// Whether the factors are those of `basic`.
-    is_factored: bool,
+/// Least squares over some of the columns, whatever their signs.
+pub(super) trait Stationary {
+    /// The minimiser y over the `basic` columns, zero elsewhere, with the proximal term around `centre`. `is_new`: the columns
+    /// are others than the last time.
+    fn stationary(&mut self, basic: &[bool], is_new: bool, centre: &[f64]) -> Result<Vec<f64>, FactorizationError>;
 }
 
-impl<'a> Pivoting<'a> {
-    fn new(g: &'a [f64], columns: &'a [Column], build: Build) -> Result<Self, FactorizationError> {
-        let p = g.len() as u32;
-        let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
-        for (k, column) in columns.iter().enumerate() {
-            positions.extend(column.entries.iter().map(|&(row, _)| (p + k as u32, row)));
-        }
-        let matrix = build(g.len() + columns.len(), &positions)?;
+struct Pivoting<'a, S> {
+    g: &'a [f64],
+    columns: &'a [Column<'a>],
+    basic: Vec<bool>,
+    is_new: bool,
+    method: S,
+}
+
+impl<'a, S: Stationary> Pivoting<'a, S> {
+    fn new(g: &'a [f64], columns: &'a [Column<'a>], method: S) -> Self {
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Ok(Pivoting { g, columns, matrix, basic, is_factored: false })
+        Pivoting { g, columns, basic, is_new: true, method }
     }
 
     /// The minimiser with the proximal term around `centre`.
@@ -118,7 +129,7 @@ impl<'a> Pivoting<'a> {
             for &k in swapped {
                 self.basic[k] = !self.basic[k];
             }
-            self.is_factored = false;
+            self.is_new = true;
             y = self.stationary(centre)?;
         }
         for (y, column) in y.iter_mut().zip(self.columns) {
@@ -129,26 +140,9 @@ impl<'a> Pivoting<'a> {
         Ok(y)
     }
 
-    /// The stationary point over the basic columns, from [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre].
     fn stationary(&mut self, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
-        if !self.is_factored {
-            self.factor()?;
-            self.is_factored = true;
-        }
-        let (p, columns) = (self.g.len(), self.columns);
-        let pull = |k: usize| if self.basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
-        let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..columns.len()).map(pull)).collect();
-        let mut solution = self.matrix.solve(&right)?;
-        Ok(solution.split_off(p))
-    }
-
-    fn factor(&mut self) -> Result<(), FactorizationError> {
-        let (basic, columns) = (&self.basic, self.columns);
-        let diagonal = |(k, column): (usize, &Column)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
-        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
-        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
-        let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
-        self.matrix.factor(entries).map(|_| ())
+        let is_new = std::mem::replace(&mut self.is_new, false);
+        self.method.stationary(&self.basic, is_new, centre)
     }
 
     /// Columns on the wrong side: basic with the wrong sign, or at zero although moving would help.
@@ -163,12 +157,52 @@ impl<'a> Pivoting<'a> {
     }
 }
 
+/// From [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre], over the basic columns.
+struct Augmented<'a> {
+    g: &'a [f64],
+    columns: &'a [Column<'a>],
+    matrix: Symmetric,
+}
+
+impl<'a> Augmented<'a> {
+    fn new(g: &'a [f64], columns: &'a [Column<'a>], build: Build) -> Result<Self, FactorizationError> {
+        let p = g.len() as u32;
+        let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
+        for (k, column) in columns.iter().enumerate() {
+            positions.extend(column.entries.iter().map(|&(row, _)| (p + k as u32, row)));
+        }
+        Ok(Augmented { g, columns, matrix: build(g.len() + columns.len(), &positions)? })
+    }
+
+    fn factor(&mut self, basic: &[bool]) -> Result<(), FactorizationError> {
+        let columns = self.columns;
+        let diagonal =
+            |(k, column): (usize, &Column<'_>)| if basic[k] { -(column.weight * column.weight + PROXIMAL) } else { -1.0 };
+        let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
+        let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
+        let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
+        self.matrix.factor(entries).map(|_| ())
+    }
+}
+
+impl Stationary for Augmented<'_> {
+    fn stationary(&mut self, basic: &[bool], is_new: bool, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+        if is_new {
+            self.factor(basic)?;
+        }
+        let pull = |k: usize| if basic[k] { -PROXIMAL * centre[k] } else { 0.0 };
+        let right: Vec<f64> = self.g.iter().map(|g| -g).chain((0..basic.len()).map(pull)).collect();
+        let mut solution = self.matrix.solve(&right)?;
+        Ok(solution.split_off(self.g.len()))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn column(entries: &[(u32, f64)], sign: f64) -> Column {
-        Column { entries: entries.to_vec(), sign, weight: 0.0, basic: true }
+    fn column(entries: &[(u32, f64)], sign: f64) -> Column<'_> {
+        Column { entries, sign, weight: 0.0, basic: true }
     }
 
     #[test]
@@ -195,7 +229,8 @@ mod tests {
     #[test]
     fn of_two_explanations_the_nearer_limit_carries_the_multiplier() {
         // Columns 0 and 1 alone balance g; 2 and 3 could take their place, but lie 5e−6 away.
-        let far = |entry: u32| Column { weight: 5e-6, ..column(&[(entry, 1.0)], -1.0) };
+        let unit = [[(0, 1.0)], [(1, 1.0)]];
+        let far = |entry: usize| Column { weight: 5e-6, ..column(&unit[entry], -1.0) };
         let y =
             solve(&[1.0, 1.0, 0.0], &[column(&[(0, 1.0), (2, 1.0)], -1.0), column(&[(1, 1.0), (2, -1.0)], -1.0), far(0), far(1)])
                 .unwrap();
@@ -206,7 +241,8 @@ mod tests {
     fn it_agrees_with_trying_every_set_of_signs() {
         let g = [-1.0, 0.3, -0.7, 0.2];
         let dense = [[1.0, 0.2, -0.5, 0.1], [0.4, -1.0, 0.3, 0.8], [-0.6, 0.5, 1.0, -0.2], [0.9, 0.9, -0.1, 1.0]];
-        let columns: Vec<_> = dense.iter().map(|c| column(&[(0, c[0]), (1, c[1]), (2, c[2]), (3, c[3])], 1.0)).collect();
+        let entries = dense.map(|c| [(0, c[0]), (1, c[1]), (2, c[2]), (3, c[3])]);
+        let columns: Vec<_> = entries.iter().map(|entries| column(entries, 1.0)).collect();
         let y = solve(&g, &columns).unwrap();
         let residual: Vec<f64> = (0..4).map(|r| g[r] + (0..4).map(|k| dense[k][r] * y[k]).sum::<f64>()).collect();
         for k in 0..4 {

@@ -1,5 +1,6 @@
 //! Sparse symmetric matrices put together from entries.
 
+use super::bordered::Bordered;
 use crate::linear_algebra::blocks::BlockSolver;
 use crate::linear_algebra::bunch_kaufman::{self, Pivot};
 use crate::linear_algebra::congruence::CongruentSolver;
@@ -23,6 +24,7 @@ const LARGE: usize = 2000;
 enum Solver {
     Dense { factors: Vec<f64>, pivots: Vec<Pivot> },
     Blocks(BlockSolver),
+    Bordered(Box<Bordered>),
     Sparse(SymmetricSolver),
     Congruent(CongruentSolver),
 }
@@ -30,8 +32,18 @@ enum Solver {
 impl Symmetric {
     /// A matrix of this order with entries at these positions (either triangle, repeats are added up).
     pub(super) fn new(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
-        let sparse = |pattern: Pattern| SymmetricSolver::new(&pattern.offsets, &pattern.columns).map(Solver::Sparse);
-        Symmetric::build(order, positions, sparse)
+        Symmetric::build(order, positions, |pattern| match pattern.rows() < LARGE {
+            true => sparse(&pattern),
+            false => {
+                let bordered = Bordered::new(pattern).map(|bordered| Solver::Bordered(Box::new(bordered)));
+                bordered.or_else(|pattern| sparse(&pattern))
+            }
+        })
+    }
+
+    /// The same by sparse factors, whatever the structure.
+    pub(super) fn sparse(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+        Symmetric::build(order, positions, |pattern| sparse(&pattern))
     }
 
     /// The same for a matrix of second derivatives.
@@ -87,6 +99,15 @@ impl Symmetric {
                 Ok(bunch_kaufman::factor(factors, pivots))
             }
             Solver::Blocks(solver) => solver.factor(&self.values),
+            Solver::Bordered(solver) => match solver.factor(&self.values) {
+                Some(inertia) => Ok(inertia),
+                None => {
+                    let mut other = SymmetricSolver::new(&solver.pattern().offsets, &solver.pattern().columns)?;
+                    let inertia = other.factor(&self.values);
+                    self.solver = Solver::Sparse(other);
+                    inertia
+                }
+            },
             Solver::Sparse(solver) => solver.factor(&self.values),
             Solver::Congruent(solver) => solver.factor(&self.values),
         }
@@ -103,9 +124,14 @@ impl Symmetric {
                 }
             }
             Solver::Blocks(solver) => solver.solve(right, &mut x),
+            Solver::Bordered(solver) => return solver.solve(&self.values, right).ok_or(FactorizationError::Singular),
             Solver::Sparse(solver) => solver.solve(right, &mut x)?,
             Solver::Congruent(solver) => solver.solve(right, &mut x)?,
         }
         Ok(x)
     }
+}
+
+fn sparse(pattern: &Pattern) -> Result<Solver, FactorizationError> {
+    SymmetricSolver::new(&pattern.offsets, &pattern.columns).map(Solver::Sparse)
 }

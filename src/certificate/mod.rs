@@ -3,6 +3,7 @@
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
 mod active_set;
+mod bordered;
 mod candidates;
 mod curvature;
 mod descent;
@@ -12,11 +13,14 @@ mod least_squares;
 mod lower_bound;
 mod matrix;
 mod multipliers;
+mod narrow;
+mod normal_equations;
 mod outward;
 mod pieces;
 mod point;
 mod reach;
 mod runaway;
+mod small_kkt;
 #[cfg(test)]
 mod tests;
 mod trial;

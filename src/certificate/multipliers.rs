@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
 use super::least_squares::{self, Column};
+use super::normal_equations::NormalEquations;
 use super::point::Point;
 use crate::model::components::Partition;
 
@@ -33,7 +34,9 @@ pub(super) fn find(point: &Point<'_>, guess: Option<&[f64]>) -> Multipliers {
             .into_par_iter()
             .with_min_len(BATCH)
             .filter(|&group| !partition.rows(group).is_empty())
-            .map(|group| Group { point, guess, partition: &partition, group, near: &near }.row_multipliers(many))
+            .map_init(Room::default, |room, group| {
+                Group { point, guess, partition: &partition, group, near: &near }.row_multipliers(many, room)
+            })
             .collect();
         for (i, y) in solved.into_iter().flatten() {
             rows[i] += y;
@@ -66,53 +69,90 @@ struct Group<'a> {
 }
 
 /// The least-squares problem of a group.
+#[derive(Default)]
 struct System {
     candidates: Vec<Candidate>,
     gradient: Vec<f64>,
-    columns: Vec<Column>,
+    /// The candidates' columns one after the other, where each ends, and whether it starts out as free to move.
+    entries: Vec<(u32, f64)>,
+    columns: Vec<(usize, bool)>,
     /// Bounds left out.
     absorbing: Vec<Candidate>,
+    /// Where each variable of the group stands in the gradient.
+    places: Vec<u32>,
+}
+
+/// A thread's room.
+#[derive(Default)]
+struct Room {
+    system: System,
+    equations: NormalEquations,
+}
+
+impl System {
+    fn clear(&mut self) {
+        self.candidates.clear();
+        self.gradient.clear();
+        self.entries.clear();
+        self.columns.clear();
+        self.absorbing.clear();
+        self.places.clear();
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        let mut first = 0;
+        let column = |(candidate, &(last, basic)): (&Candidate, &(usize, bool))| {
+            let entries = &self.entries[std::mem::replace(&mut first, last)..last];
+            let weight = if candidate.sign == 0.0 { 0.0 } else { candidate.distance };
+            Column { entries, sign: candidate.sign, weight, basic }
+        };
+        self.candidates.iter().zip(&self.columns).map(column).collect()
+    }
 }
 
 /// The place of a variable that is left out.
 const OUT: u32 = u32::MAX;
 
 impl Group<'_> {
-    /// Row by row what its multiplier gains.
-    fn row_multipliers(&self, many: bool) -> Vec<(usize, f64)> {
+    /// Row by row what its multiplier gains. `many`: the groups are many and small.
+    fn row_multipliers(&self, many: bool, room: &mut Room) -> Vec<(usize, f64)> {
         if many {
-            let small = self.system(true);
-            let found = self.solved(&small, many);
-            if small.absorbing.is_empty() || self.bounds_push_back(&small, &found) {
+            self.fill(&mut room.system, true);
+            let found = self.solved(many, room);
+            if room.system.absorbing.is_empty() || self.bounds_push_back(&room.system, &found) {
                 return found;
             }
         }
-        self.solved(&self.system(false), many)
+        self.fill(&mut room.system, false);
+        self.solved(many, room)
     }
 
     /// The group's rows, and the bounds of the variables they touch; other variables need no solving. A variable exactly on
     /// its one bound can be left out with it: that bound's multiplier takes up whatever slope is left, if its sign is right.
-    fn system(&self, absorb: bool) -> System {
-        let (point, variables) = (self.point, self.partition.variables(self.group));
-        let mut candidates: Vec<Candidate> = self.rows().flat_map(|i| candidates::row(point, i)).collect();
-        let (mut absorbing, mut places, mut gradient) = (Vec::new(), Vec::with_capacity(variables.len()), Vec::new());
-        for &j in variables {
+    fn fill(&self, system: &mut System, absorb: bool) {
+        system.clear();
+        let point = self.point;
+        system.candidates.extend(self.rows().flat_map(|i| candidates::row(point, i)));
+        for &j in self.partition.variables(self.group) {
             let j = j as usize;
             let mut bounds = candidates::bounds(point, j);
             let (first, second) = (bounds.next(), bounds.next());
             match first {
                 Some(bound) if absorb && second.is_none() && bound.distance == 0.0 => {
-                    absorbing.push(bound);
-                    places.push(OUT);
+                    system.absorbing.push(bound);
+                    system.places.push(OUT);
                     continue;
                 }
-                _ => candidates.extend(first.into_iter().chain(second)),
+                _ => system.candidates.extend(first.into_iter().chain(second)),
             }
-            places.push(gradient.len() as u32);
-            gradient.push(self.slope(j));
+            system.places.push(system.gradient.len() as u32);
+            system.gradient.push(self.slope(j));
         }
-        let columns = candidates.iter().map(|candidate| self.column(candidate, &places)).collect();
-        System { candidates, gradient, columns, absorbing }
+        let System { candidates, entries, columns, places, .. } = system;
+        for candidate in candidates {
+            let basic = self.add_column(candidate, places, entries);
+            columns.push((entries.len(), basic));
+        }
     }
 
     fn rows(&self) -> impl Iterator<Item = usize> {
@@ -133,26 +173,32 @@ impl Group<'_> {
         })
     }
 
-    fn column(&self, candidate: &Candidate, places: &[u32]) -> Column {
+    /// Adds a candidate's column; whether it starts out as free to move.
+    fn add_column(&self, candidate: &Candidate, places: &[u32], entries: &mut Vec<(u32, f64)>) -> bool {
         let place = |j: usize| places[self.partition.place(j as u32) as usize];
-        let (entries, basic) = match candidate.owner {
-            Owner::Bound(j) => (vec![(place(j), 1.0)], true),
-            Owner::Row(i) => {
-                let hinted = self.guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0);
-                let entries = self.gradient_of(i).map(|(j, entry)| (place(j), entry));
-                (entries.filter(|&(at, entry)| at != OUT && entry != 0.0).collect(), hinted)
+        match candidate.owner {
+            Owner::Bound(j) => {
+                entries.push((place(j), 1.0));
+                true
             }
-        };
-        let weight = if candidate.sign == 0.0 { 0.0 } else { candidate.distance };
-        Column { entries, sign: candidate.sign, weight, basic }
+            Owner::Row(i) => {
+                let own = self.gradient_of(i).map(|(j, entry)| (place(j), entry));
+                entries.extend(own.filter(|&(at, entry)| at != OUT && entry != 0.0));
+                self.guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0)
+            }
+        }
     }
 
-    fn solved(&self, system: &System, many: bool) -> Vec<(usize, f64)> {
-        let solve = if many { least_squares::solve_one_of_many } else { least_squares::solve };
-        if system.columns.is_empty() {
+    fn solved(&self, many: bool, Room { system, equations }: &mut Room) -> Vec<(usize, f64)> {
+        let columns = system.columns();
+        if columns.is_empty() {
             return Vec::new();
         }
-        let scaled = solve(&system.gradient, &system.columns).unwrap_or_default();
+        let solved = match many {
+            true => least_squares::solve_one_of_many(&system.gradient, &columns, equations),
+            false => least_squares::solve(&system.gradient, &columns),
+        };
+        let scaled = solved.unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {
             Owner::Row(i) => Some((i, value * self.point.sigma / self.point.slopes[i])),
             Owner::Bound(_) => None,

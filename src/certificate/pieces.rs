@@ -3,10 +3,9 @@
 use rayon::prelude::*;
 
 use super::curvature::{Active, Choice, Curvature, Hessian, ROUNDING, judge as judge_choice};
-use super::kkt::{DEPENDENT, DUAL, weight};
 use super::point::Point;
-use crate::linear_algebra::bunch_kaufman::{self, Pivot};
-use crate::linear_algebra::{FactorizationError, Inertia};
+use super::small_kkt::Matrices;
+use crate::linear_algebra::FactorizationError;
 use crate::model::Meta;
 use crate::model::components::Partition;
 
@@ -75,89 +74,39 @@ struct Found {
 #[derive(Default)]
 struct Piece {
     choice: Choice,
-    matrix: Vec<f64>,
-    pivots: Vec<Pivot>,
+    matrices: Matrices,
 }
 
 impl Piece {
     fn examine(&mut self, point: &Point<'_>, hessian: &Hessian) -> Found {
-        let (free, held) = (self.choice.free.clone(), self.choice.held.clone());
-        let dependent = self.dependent(point, &free, &held);
-        let mut bends_down = self.bends_down(point, hessian, ROUNDING, &free, &held);
+        let (choice, matrices) = (&self.choice, &mut self.matrices);
+        matrices.fill(point, hessian, &choice.free, &choice.held);
+        let dependent = matrices.has_dependent_rows();
+        let singular = matrices.bends_down(-ROUNDING);
+        // What bends up beyond rounding does not bend down.
+        let mut bends_down = singular && matrices.bends_down(ROUNDING);
         if !bends_down && !dependent {
-            bends_down = self.bends_down_inwards(point, hessian, &free, &held);
+            bends_down = self.bends_down_inwards(point, hessian);
         }
-        Found { dependent, singular: self.bends_down(point, hessian, -ROUNDING, &free, &held), bends_down }
+        Found { dependent, singular, bends_down }
     }
 
     /// The same with one weakly active limit let go.
-    fn bends_down_inwards(&mut self, point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) -> bool {
-        let (bounds, rows) = (std::mem::take(&mut self.choice.weak_bounds), std::mem::take(&mut self.choice.weak_rows));
-        let by_bound = bounds.iter().filter(|&&j| hessian.size[j] > 0.0).any(|&j| {
-            let mut more = free.to_vec();
+    fn bends_down_inwards(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
+        let (Choice { free, held, weak_bounds, weak_rows }, matrices) = (&self.choice, &mut self.matrices);
+        let mut bends_down = |free: &[usize], held: &[usize]| {
+            matrices.fill(point, hessian, free, held);
+            matrices.bends_down(ROUNDING)
+        };
+        let by_bound = weak_bounds.iter().filter(|&&j| hessian.size[j] > 0.0).any(|&j| {
+            let mut more = free.clone();
             more.insert(more.partition_point(|&k| k < j), j);
-            self.bends_down(point, hessian, ROUNDING, &more, held)
+            bends_down(&more, held)
         });
-        let by_row = rows.iter().any(|&i| {
-            let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
-            self.bends_down(point, hessian, ROUNDING, free, &fewer)
-        });
-        (self.choice.weak_bounds, self.choice.weak_rows) = (bounds, rows);
-        by_bound || by_row
-    }
-
-    /// As [`Kkt::dependent_rows`](super::kkt::Kkt::dependent_rows).
-    fn dependent(&mut self, point: &Point<'_>, free: &[usize], held: &[usize]) -> bool {
-        if held.is_empty() || held.len() > free.len() {
-            return !held.is_empty();
-        }
-        self.begin(free.len() + held.len());
-        self.add_rows(point, free, held);
-        self.inertia(|at| if at < free.len() { 1.0 } else { DEPENDENT }).negative < held.len()
-    }
-
-    /// As [`Kkt::bends_down`](super::kkt::Kkt::bends_down).
-    fn bends_down(&mut self, point: &Point<'_>, hessian: &Hessian, shift: f64, free: &[usize], held: &[usize]) -> bool {
-        let (order, pattern) = (free.len() + held.len(), &point.meta().hessian);
-        self.begin(order);
-        self.add_rows(point, free, held);
-        for (row, &i) in free.iter().enumerate() {
-            for at in pattern.range(i) {
-                if let Ok(column) = free.binary_search(&(pattern.columns[at] as usize)) {
-                    self.matrix[row * order + column] += hessian.values[at];
-                }
-            }
-        }
-        let diagonal = |at: usize| free.get(at).map_or(-DUAL, |&j| shift * weight(hessian.size[j]));
-        self.inertia(diagonal).negative > held.len()
-    }
-
-    fn begin(&mut self, order: usize) {
-        self.matrix.clear();
-        self.matrix.resize(order * order, 0.0);
-        self.pivots.clear();
-        self.pivots.resize(order, Pivot::default());
-    }
-
-    /// The active rows over the free variables, each divided by its slope.
-    fn add_rows(&mut self, point: &Point<'_>, free: &[usize], held: &[usize]) {
-        let (order, pattern) = (self.pivots.len(), &point.meta().jacobian);
-        for (k, &i) in held.iter().enumerate() {
-            let slope = point.slope_in_sizes(i);
-            for at in pattern.range(i) {
-                let j = pattern.columns[at] as usize;
-                if let Ok(column) = free.binary_search(&j) {
-                    self.matrix[(free.len() + k) * order + column] = point.jacobian[at] * point.sizes[j] / slope;
-                }
-            }
-        }
-    }
-
-    fn inertia(&mut self, diagonal: impl Fn(usize) -> f64) -> Inertia {
-        let order = self.pivots.len();
-        for at in 0..order {
-            self.matrix[at * order + at] += diagonal(at);
-        }
-        bunch_kaufman::factor(&mut self.matrix, &mut self.pivots)
+        by_bound
+            || weak_rows.iter().any(|&i| {
+                let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
+                bends_down(free, &fewer)
+            })
     }
 }

@@ -113,7 +113,7 @@ impl RibModel {
     fn describe(&self, label: Label) -> String {
         match label {
             Label::Objective => format!("objective {}", self.problem.objective_text),
-            Label::RibVolume(rib) => format!("volume of rib {}", self.problem.ribs.names[rib as usize]),
+            Label::RibVolume(rib) => format!("volume of rib {}", &self.problem.ribs.names[rib as usize]),
             Label::Row(row) => format!("row {}", self.row_name(row as usize)),
         }
     }

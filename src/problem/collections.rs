@@ -1,5 +1,6 @@
 //! Sections and ribs looked at alike.
 
+use super::texts::Texts;
 use super::{Cells, Column, Problem};
 use crate::expression::ast::Collection;
 use crate::sections::{self, Form};
@@ -12,7 +13,7 @@ impl Problem {
 
     /// The name of a section or rib.
     pub fn item_name(&self, collection: Collection, index: u32) -> &str {
-        self.item_names(collection).get(index as usize).map_or("", |name| name)
+        self.item_names(collection).get(index as usize).unwrap_or_default()
     }
 
     /// Data columns of sections or ribs.
@@ -40,7 +41,7 @@ impl Problem {
         self.sections.form.get(section as usize).copied()
     }
 
-    fn item_names(&self, collection: Collection) -> &[Box<str>] {
+    fn item_names(&self, collection: Collection) -> &Texts {
         match collection {
             Collection::Sections => &self.sections.names,
             Collection::Ribs => &self.ribs.names,

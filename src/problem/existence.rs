@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::affine::{Affine, Reading};
 use super::evaluate::{Evaluation, Item};
-use super::{Constraint, Formula, Limit, Problem, Scope, sections_form};
+use super::{Constraint, Dimension, Formula, Limit, Problem, Scope, sections_form};
 use crate::sections;
 
 /// A dimension in doubt.
@@ -23,7 +23,7 @@ pub struct Doubt {
 pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     let (rows, mut reading) = (Rows::of(problem), Reading::of(problem));
     let mut found = Vec::new();
-    for section in 0..problem.sections.names.len() as u32 {
+    for section in (0..problem.sections.names.len() as u32).filter(|&section| !is_plainly_positive(problem, section)) {
         for name in needed(problem, section, &mut reading) {
             let Some(value) = reading.property(section, name) else { continue };
             let (least, most) = value.range(&problem.variables);
@@ -34,6 +34,19 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
         }
     }
     found
+}
+
+/// Whether all that must be positive is given, and is a positive number or a variable with a positive lower bound: nothing needs
+/// to be looked into.
+fn is_plainly_positive(problem: &Problem, section: u32) -> bool {
+    let given = sections_form(problem, section as usize).map_or(&[][..], |form| form.dimensions);
+    let kind = sections::kind_of(problem.sections.form[section as usize]);
+    let is_positive = |dimension: &Dimension| match *dimension {
+        Dimension::Constant(value) => value > 0.0,
+        Dimension::Variable(j) => problem.variables.lower.get(j as usize).is_some_and(|lower| *lower > 0.0),
+        Dimension::Formula(_) => false,
+    };
+    kind.positive().iter().all(|name| given.contains(name)) && problem.dimensions(section as usize).iter().all(is_positive)
 }
 
 /// The dimensions that must be positive: the given ones, and those of the kind that are no mere multiple of a given one.

@@ -19,6 +19,7 @@ pub mod profile;
 mod ratio;
 pub mod resolve;
 pub mod settings;
+pub mod texts;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -29,6 +30,7 @@ pub use collections::sections_form;
 pub use formula::{Formula, Property};
 pub use profile::Profile;
 pub use settings::Settings;
+use texts::Texts;
 
 /// Everything a problem file says, checked.
 #[derive(Debug, Clone, Default)]
@@ -82,7 +84,7 @@ impl Problem {
             Origin::Element(entry, index) => format!("{}[{index}]", self.variables.declared[entry as usize]),
             Origin::Dimension(section, position) => {
                 let form = sections::form(self.sections.form[section as usize]);
-                format!("{}.{}", self.sections.names[section as usize], form.dimensions[position as usize])
+                format!("{}.{}", &self.sections.names[section as usize], form.dimensions[position as usize])
             }
         }
     }
@@ -92,8 +94,8 @@ impl Problem {
         let Constraint { name, scope, .. } = &self.constraints[c];
         match scope {
             Scope::Once => name.clone(),
-            Scope::Sections(items) => format!("{name}[{}]", self.sections.names[items[item] as usize]),
-            Scope::Ribs(items) => format!("{name}[{}]", self.ribs.names[items[item] as usize]),
+            Scope::Sections(items) => format!("{name}[{}]", &self.sections.names[items[item] as usize]),
+            Scope::Ribs(items) => format!("{name}[{}]", &self.ribs.names[items[item] as usize]),
             Scope::RibGroups(groups) | Scope::SectionGroups(groups) => format!("{name}[{}]", groups[item].0),
         }
     }
@@ -168,7 +170,7 @@ pub enum Dimension {
 #[derive(Debug, Clone, Default)]
 pub struct Sections {
     /// Names.
-    pub names: Vec<Box<str>>,
+    pub names: Texts,
     /// Number for [`crate::sections::form`]: the kind and which of its dimensions are given.
     pub form: Vec<u16>,
     /// Offsets into `dimensions`, one more than sections.
@@ -185,7 +187,7 @@ pub struct Sections {
 #[derive(Debug, Clone, Default)]
 pub struct Ribs {
     /// Names.
-    pub names: Vec<Box<str>>,
+    pub names: Texts,
     /// Section at the left end.
     pub from: Vec<u32>,
     /// Section at the right end (the same for a prismatic rib).

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::Problem;
+use super::texts::Texts;
 
 /// What a name stands for, and its number among its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,42 +32,80 @@ impl Entity {
     }
 }
 
-/// Finds a name among millions without keeping a second copy of any: hash → number of the item.
+/// Finds a name among millions without keeping a second copy of any: a table of hashes and numbers, a name's place being the
+/// first free one from its hash on.
 #[derive(Debug, Default)]
 pub struct NameIndex {
-    slots: HashMap<u64, u32>,
+    slots: Vec<Slot>,
+    entered: usize,
 }
+
+#[derive(Debug, Clone, Copy)]
+struct Slot {
+    hash: u32,
+    number: u32,
+}
+
+/// No name has this number.
+const FREE: u32 = u32::MAX;
 
 impl NameIndex {
     /// The number of `name` in `names`.
-    pub fn find(&self, names: &[Box<str>], name: &str) -> Option<u32> {
-        self.slot(names, name).ok()
+    pub fn find(&self, names: &Texts, name: &str) -> Option<u32> {
+        let slot = self.slots.get(self.place(names, name, hash(name))?)?;
+        (slot.number != FREE).then_some(slot.number)
     }
 
     /// Enters the name that stands at `number` of `names`, or brings back the number it already has.
-    pub fn enter(&mut self, names: &[Box<str>], number: u32) -> Result<(), u32> {
-        match self.slot(names, &names[number as usize]) {
-            Ok(known) => Err(known),
-            Err(key) => {
-                self.slots.insert(key, number);
+    pub fn enter(&mut self, names: &Texts, number: u32) -> Result<(), u32> {
+        // At most half of the table is taken: ways to a free place stay short.
+        if 2 * (self.entered + 1) > self.slots.len() {
+            self.grow();
+        }
+        let name = &names[number as usize];
+        let hash = hash(name);
+        let Some(place) = self.place(names, name, hash) else { return Ok(()) }; // a table has places
+        match self.slots[place].number {
+            FREE => {
+                self.slots[place] = Slot { hash, number };
+                self.entered += 1;
                 Ok(())
             }
+            known => Err(known),
         }
     }
 
-    /// The name's number, or the free key it would get: names with equal hashes take neighbouring keys.
-    fn slot(&self, names: &[Box<str>], name: &str) -> Result<u32, u64> {
-        let mut hasher = DefaultHasher::new();
-        name.hash(&mut hasher);
-        let mut key = hasher.finish();
-        while let Some(&number) = self.slots.get(&key) {
-            if &*names[number as usize] == name {
-                return Ok(number);
+    /// Where the name is, or the free place it would get; `None` in a table without places.
+    fn place(&self, names: &Texts, name: &str, hash: u32) -> Option<usize> {
+        let last = self.slots.len().checked_sub(1)?;
+        let mut place = hash as usize & last;
+        loop {
+            let slot = self.slots[place];
+            if slot.number == FREE || (slot.hash == hash && names[slot.number as usize] == *name) {
+                return Some(place);
             }
-            key = key.wrapping_add(1);
+            place = (place + 1) & last;
         }
-        Err(key)
     }
+
+    /// Twice the places, always a power of two.
+    fn grow(&mut self) {
+        let size = (2 * self.slots.len()).max(16);
+        let old = std::mem::replace(&mut self.slots, vec![Slot { hash: 0, number: FREE }; size]);
+        for slot in old.into_iter().filter(|slot| slot.number != FREE) {
+            let mut place = slot.hash as usize & (size - 1);
+            while self.slots[place].number != FREE {
+                place = (place + 1) & (size - 1);
+            }
+            self.slots[place] = slot;
+        }
+    }
+}
+
+fn hash(name: &str) -> u32 {
+    let mut hasher = DefaultHasher::new();
+    name.hash(&mut hasher);
+    hasher.finish() as u32
 }
 
 /// All names of a problem.
@@ -97,6 +136,25 @@ impl Names {
         let mut declared: Vec<&str> = self.declared.keys().map(|name| &**name).collect();
         declared.sort_unstable();
         let items = problem.sections.names.iter().take(10_000).chain(problem.ribs.names.iter().take(10_000));
-        declared.into_iter().chain(items.map(|name| &**name)).collect()
+        declared.into_iter().chain(items).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_found_and_no_other() {
+        let (mut names, mut index) = (Texts::default(), NameIndex::default());
+        assert_eq!(index.find(&names, "r0"), None);
+        for number in 0..3000 {
+            names.push(&format!("r{number}"));
+            assert_eq!(index.enter(&names, number), Ok(()));
+        }
+        names.push("r17");
+        assert_eq!(index.enter(&names, 3000), Err(17));
+        assert!((0..3000).all(|number| index.find(&names, &format!("r{number}")) == Some(number)));
+        assert_eq!(index.find(&names, "r3000"), None);
     }
 }

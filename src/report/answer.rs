@@ -1,6 +1,6 @@
 //! Reads an answer back: a `result.json`, or a CSV with the columns `name,value`.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
@@ -8,14 +8,15 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
+use super::named_numbers::{self, NamedNumbers};
 use super::text::listing;
 use crate::model::Model;
 
 /// Values by variable name, and multipliers by row name where there are any.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct EarlierAnswer {
-    values: HashMap<String, f64>,
-    multipliers: HashMap<String, f64>,
+    values: NamedNumbers,
+    multipliers: NamedNumbers,
 }
 
 /// Why an answer cannot be used.
@@ -39,15 +40,9 @@ pub enum AnswerError {
 
 #[derive(Deserialize)]
 struct ResultFile {
-    variables: HashMap<String, Option<f64>>,
-    #[serde(default)]
-    constraints: Vec<Row>,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    multiplier: Option<f64>,
+    variables: NamedNumbers,
+    #[serde(default, deserialize_with = "named_numbers::multipliers")]
+    constraints: NamedNumbers,
 }
 
 impl EarlierAnswer {
@@ -64,14 +59,12 @@ impl EarlierAnswer {
     }
 
     fn from_json(file: impl io::Read) -> Result<EarlierAnswer, String> {
-        let result: ResultFile = serde_json::from_reader(BufReader::new(file)).map_err(|error| error.to_string())?;
-        let finite = |(name, value): (String, Option<f64>)| {
-            let value = value.filter(|value| value.is_finite()).ok_or_else(|| format!("{name} has no value"))?;
-            Ok::<_, String>((name, value))
-        };
-        let values = result.variables.into_iter().map(finite).collect::<Result<_, _>>()?;
-        let multipliers = result.constraints.into_iter().filter_map(|row| Some((row.name, row.multiplier?))).collect();
-        Ok(EarlierAnswer { values, multipliers })
+        let reader = BufReader::with_capacity(1 << 18, file);
+        let ResultFile { variables, constraints } = serde_json::from_reader(reader).map_err(|error| error.to_string())?;
+        if let Some((name, _)) = variables.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(format!("{name} has no value"));
+        }
+        Ok(EarlierAnswer { values: variables, multipliers: constraints })
     }
 
     fn from_csv(file: impl io::Read) -> Result<EarlierAnswer, String> {
@@ -82,18 +75,19 @@ impl EarlierAnswer {
             found.ok_or_else(|| format!("its first line has no column {wanted}"))
         };
         let (name, value) = (column("name")?, column("value")?);
-        let mut values = HashMap::new();
+        let (mut values, mut known) = (NamedNumbers::default(), HashSet::new());
         for record in reader.records() {
             let record = record.map_err(|error| error.to_string())?;
             let line = record.position().map_or(0, csv::Position::line);
             let (name, text) = (record.get(name).unwrap_or_default(), record.get(value).unwrap_or_default());
             let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
             let number = number.ok_or_else(|| format!("line {line}: the value of {name} is {text:?}, not a finite number"))?;
-            if values.insert(name.to_string(), number).is_some() {
+            if !known.insert(name.to_string()) {
                 return Err(format!("line {line}: {name} is given twice"));
             }
+            values.push(name, number);
         }
-        Ok(EarlierAnswer { values, multipliers: HashMap::new() })
+        Ok(EarlierAnswer { values, multipliers: NamedNumbers::default() })
     }
 
     /// The point itself.
@@ -143,7 +137,7 @@ impl EarlierAnswer {
         if self.multipliers.is_empty() {
             return None;
         }
-        rows.map(|i| self.multipliers.get(&model.row_name(i)).map(|y| sign * y)).collect()
+        rows.map(|i| self.multipliers.get(i, &model.row_name(i)).map(|y| sign * y)).collect()
     }
 
     /// Values in the model's order, the others from `otherwise`, and the names of those.
@@ -151,7 +145,7 @@ impl EarlierAnswer {
         let mut missing = Vec::new();
         let value = |(j, &otherwise): (usize, &f64)| {
             let name = model.variable_name(j);
-            self.values.get(&name).copied().unwrap_or_else(|| {
+            self.values.get(j, &name).unwrap_or_else(|| {
                 missing.push(name);
                 otherwise
             })
@@ -160,8 +154,9 @@ impl EarlierAnswer {
     }
 
     fn unknown(&self, model: &dyn Model) -> Vec<String> {
-        let known: std::collections::HashSet<String> = (0..model.meta().variables()).map(|j| model.variable_name(j)).collect();
-        let mut unknown: Vec<String> = self.values.keys().filter(|name| !known.contains(*name)).cloned().collect();
+        let known: HashSet<String> = (0..model.meta().variables()).map(|j| model.variable_name(j)).collect();
+        let mut unknown: Vec<String> =
+            self.values.iter().map(|(name, _)| name).filter(|name| !known.contains(*name)).map(str::to_string).collect();
         unknown.sort();
         unknown
     }

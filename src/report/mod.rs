@@ -8,6 +8,7 @@ pub mod bounds;
 pub mod comparison;
 pub mod cross_section;
 pub mod governing;
+mod named_numbers;
 pub mod number;
 pub mod pictures;
 pub mod profile;

@@ -74,7 +74,7 @@ impl Network {
         let mut ribs = Vec::with_capacity(problem.ribs.names.len());
         for (name, &length) in problem.ribs.names.iter().zip(&problem.ribs.length) {
             let rib = || name.to_string();
-            let place = places.remove(&**name).ok_or_else(|| NetworkFailure::Absent { path: path.clone(), rib: rib() })?;
+            let place = places.remove(name).ok_or_else(|| NetworkFailure::Absent { path: path.clone(), rib: rib() })?;
             let distance = place.length();
             if (distance - length).abs() > LENGTH * length {
                 return Err(NetworkFailure::Length { path, rib: rib(), length, distance });

@@ -6,6 +6,7 @@ use super::{RunError, Subject};
 use crate::geometry::polygon::Ring;
 use crate::input;
 use crate::problem::nearest::did_you_mean;
+use crate::problem::texts::Texts;
 use crate::report::answer::EarlierAnswer;
 use crate::report::cross_section::CrossSection;
 use crate::sections::{self, Form, Kind};
@@ -33,14 +34,14 @@ pub fn of_file(subject: &Subject, names: &[String], answer: Option<&Path>) -> Re
     }
     let described = |s: usize| {
         let section = CrossSection::of(problem, s as u32, &x);
-        section.ok_or_else(|| RunError::Choice(format!("section {} has no value at this point; give --answer", all[s])))
+        section.ok_or_else(|| RunError::Choice(format!("section {} has no value at this point; give --answer", &all[s])))
     };
     chosen.into_iter().map(described).collect()
 }
 
-fn number(all: &[Box<str>], name: &str) -> Result<usize, RunError> {
-    all.iter().position(|known| **known == *name).ok_or_else(|| {
-        let near = did_you_mean(name, all.iter().take(10_000).map(|known| &**known));
+fn number(all: &Texts, name: &str) -> Result<usize, RunError> {
+    all.iter().position(|known| known == name).ok_or_else(|| {
+        let near = did_you_mean(name, all.iter().take(10_000));
         let help = near.unwrap_or_else(|| "sections are named under [sections] or in the table".into());
         RunError::Choice(format!("there is no section `{name}`; {help}"))
     })

@@ -41,14 +41,14 @@ fn rib() -> Problem {
             start: vec![0.2, 0.3, 0.2, 0.3],
         },
         sections: Sections {
-            names: vec!["left".into(), "right".into()],
+            names: ["left", "right"].into_iter().collect(),
             form: vec![form, form],
             first_dimension: vec![0, 2, 4],
             dimensions: (0..4).map(Dimension::Variable).collect(),
             ..Sections::default()
         },
         ribs: Ribs {
-            names: vec!["only".into()],
+            names: ["only"].into_iter().collect(),
             from: vec![0],
             to: vec![1],
             length: vec![3.0],

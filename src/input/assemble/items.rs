@@ -97,7 +97,7 @@ impl Assembly<'_> {
         let fallback = || kind.unwrap_or(sections::KINDS[0]).forms().first();
         let form = form.or_else(fallback)?;
         self.problem.sections.form.push(sections::form_number(form)?);
-        self.problem.sections.names.push(name.text.as_str().into());
+        self.problem.sections.names.push(&name.text);
         self.section_places.push(name.place);
         let _ = self.names.sections.enter(&self.problem.sections.names, s); // known to be free
         if let Some(kind) = kind {
@@ -253,7 +253,7 @@ impl Assembly<'_> {
             return None;
         }
         let r = self.problem.ribs.names.len() as u32;
-        self.problem.ribs.names.push(name.text.as_str().into());
+        self.problem.ribs.names.push(&name.text);
         self.rib_places.push(name.place);
         let _ = self.names.ribs.enter(&self.problem.ribs.names, r); // known to be free
         self.problem.ribs.length.push(length);
@@ -283,7 +283,7 @@ impl Assembly<'_> {
     pub(super) fn end(&mut self, name: &str, place: Place) -> Option<u32> {
         let found = self.names.sections.find(&self.problem.sections.names, name);
         if found.is_none() {
-            let near = self.problem.sections.names.iter().take(10_000).map(|name| &**name);
+            let near = self.problem.sections.names.iter().take(10_000);
             let help = did_you_mean(name, near).unwrap_or_else(|| "declare it under [sections] or in the table".into());
             let message = match self.names.find(&self.problem, name) {
                 Some(entity) => format!("`{name}` is a {}, not a section", entity.word()),
@@ -304,7 +304,7 @@ impl Assembly<'_> {
             self.findings.mistake(place, message, "a rib runs between two sections of one kind");
         } else if self.problem.outline(from) != self.problem.outline(to) {
             // Neither a solid between them nor its prismatoid volume would be defined.
-            let message = format!("rib `{}` joins sections drawn by different points", self.problem.ribs.names[r as usize]);
+            let message = format!("rib `{}` joins sections drawn by different points", &self.problem.ribs.names[r as usize]);
             let help = "draw both by the same points; their dimensions (scale, thickness) may differ";
             self.findings.mistake(place, message, help);
         }

@@ -2,6 +2,7 @@
 
 mod classify;
 mod facts;
+mod gathered;
 mod groups;
 mod lower;
 mod plan;

@@ -13,11 +13,11 @@ pub(super) struct Plan {
     own: bool,
     from: bool,
     to: bool,
-    numbers: Vec<OwnNumber>,
+    pub(super) numbers: Vec<OwnNumber>,
     /// Variables it names globally.
-    globals: Vec<u32>,
+    pub(super) globals: Vec<u32>,
     /// False where a name reaches beyond the item: each item is then compiled by itself.
-    shareable: bool,
+    pub(super) shareable: bool,
     /// Definitions and links already read: they may share one another many times over.
     read: HashSet<Named>,
 }
@@ -128,7 +128,7 @@ impl Plan {
     }
 
     /// Sections of the item in the order their slots are given out.
-    fn sections(&self, problem: &Problem, item: Item) -> [Option<u32>; 2] {
+    pub(super) fn sections(&self, problem: &Problem, item: Item) -> [Option<u32>; 2] {
         match item {
             Item::Section(section) if self.own => [Some(section), None],
             Item::Rib(rib) => {
@@ -140,7 +140,7 @@ impl Plan {
         }
     }
 
-    /// Gives out the slots in the order [`Gathered`] fills them.
+    /// Gives out the slots in the order [`Gathered`](super::gathered::Gathered) fills them.
     pub fn reserve(&self, lowering: &mut super::lower::Lowering, item: Item) {
         for section in self.sections(lowering.problem, item).into_iter().flatten() {
             lowering.own_section(section);
@@ -152,63 +152,5 @@ impl Plan {
         for &variable in &self.globals {
             lowering.variable(variable);
         }
-    }
-}
-
-/// One item's variables and numbers by slot, and the shape that decides whether two items may share a template.
-#[derive(Debug, Default)]
-pub(super) struct Gathered {
-    pub variables: Vec<u32>,
-    pub numbers: Vec<f64>,
-    pub shape: Vec<u32>,
-}
-
-impl Gathered {
-    /// Reads an item; false where it cannot share a template.
-    pub fn read(&mut self, plan: &Plan, problem: &Problem, item: Item) -> bool {
-        self.variables.clear();
-        self.numbers.clear();
-        self.shape.clear();
-        if !plan.shareable || item == Item::None {
-            return false;
-        }
-        if let Item::Rib(rib) = item {
-            let (from, to) = (end_section(problem, rib, End::From), end_section(problem, rib, End::To));
-            self.shape.extend([problem.ribs.law[rib as usize] as u32, u32::from(from == to)]);
-        }
-        for section in plan.sections(problem, item).into_iter().flatten() {
-            self.shape.push(problem.sections.form[section as usize].into());
-            for &dimension in problem.dimensions(section as usize) {
-                match dimension {
-                    Dimension::Constant(value) => {
-                        self.numbers.push(value);
-                        self.shape.push(u32::MAX);
-                    }
-                    Dimension::Variable(variable) => self.variable(variable),
-                    Dimension::Formula(_) => return false,
-                }
-            }
-            if !problem.outline(section).is_empty() {
-                // Shapes drawn by points are compiled into the template.
-                return false;
-            }
-        }
-        self.numbers.extend(plan.numbers.iter().map(|number| number.of(problem, item)));
-        for &variable in &plan.globals {
-            self.variable(variable);
-        }
-        true
-    }
-
-    /// Takes a variable; its slot is part of the shape, so that variables shared between dimensions are seen.
-    fn variable(&mut self, variable: u32) {
-        let slot = match self.variables.iter().position(|&known| known == variable) {
-            Some(slot) => slot,
-            None => {
-                self.variables.push(variable);
-                self.variables.len() - 1
-            }
-        };
-        self.shape.push(slot as u32);
     }
 }

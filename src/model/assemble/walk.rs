@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::facts::Facts;
+use super::gathered::Gathered;
 use super::lower::{Context, Item, Lowering, OwnNumber, item_of, law_of, members};
-use super::plan::{Gathered, Plan};
+use super::plan::Plan;
 use crate::expression::graph::NodeId;
 use crate::expression::operators::{Binary, Fold, Unary};
 use crate::expression::tape::TapeError;

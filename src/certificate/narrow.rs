@@ -1,0 +1,206 @@
+//! The second-order test of [`super::kkt`] where most active rows touch few variables: their null space is written down block by
+//! block, and only what is left is factorised, often a small part.
+//!
+//! With the columns of Z an orthonormal basis of the null space of the narrow rows, S is positive definite on the null space of
+//! all rows where [ZᵀSZ, (AZ)ᵀ; AZ, −δI] over the other rows has one negative eigenvalue per row: the same test, on the null space
+//! itself instead of a penalty of 1/δ across it.
+
+use super::curvature::Hessian;
+use super::kkt::{DUAL, weight};
+use super::matrix::Symmetric;
+use super::point::Point;
+use crate::linear_algebra::FactorizationError;
+use crate::model::components::Partition;
+
+/// Rows of more free variables than this are not narrow.
+const WIDEST: usize = 8;
+/// Blocks of more variables are left to the whole test.
+const LARGEST_BLOCK: usize = 32;
+/// Fewer variables and rows are no trouble as a whole.
+const FEWEST: usize = 2000;
+/// A row of which less than this (of its length) is its own among those of its block is left to the whole test.
+const OWN_SHARE: f64 = 1e-3;
+
+/// Null-space bases of the blocks, and where they stand.
+struct Basis {
+    partition: Partition,
+    /// Block by block: its variables' rows of Z, each as long as the block has columns.
+    rows: Vec<f64>,
+    first_row: Vec<usize>,
+    /// Columns of Z before each block; the last entry counts all.
+    first_column: Vec<usize>,
+}
+
+/// Whether S shifted by `shift` times its magnitudes certainly bends up on the null space of the active rows. `None` where this test
+/// does not pay, or cannot tell.
+pub(super) fn bends_up(
+    point: &Point<'_>,
+    hessian: &Hessian,
+    (free, held): (&[usize], &[usize]),
+    shift: f64,
+) -> Option<Result<bool, FactorizationError>> {
+    if free.len() + held.len() < FEWEST {
+        return None;
+    }
+    let place = super::kkt::places(point.meta().variables(), free);
+    let rows: Vec<Vec<(u32, f64)>> = held.iter().map(|&i| scaled_row(point, i, &place)).collect();
+    let (narrow, wide): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.len() <= WIDEST);
+    let basis = Basis::of(free.len(), &narrow)?;
+    let order = basis.columns() + wide.len();
+    (2 * order < free.len() + held.len()).then(|| {
+        let mut entries = Vec::new();
+        basis.reduce_hessian(point, hessian, (free, &place), shift, &mut entries);
+        for (k, row) in wide.iter().enumerate() {
+            let at = (basis.columns() + k) as u32;
+            row.iter().for_each(|&(j, value)| entries.extend(basis.row(j).map(|(column, z)| (at, column, value * z))));
+            entries.push((at, at, -DUAL));
+        }
+        let positions: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.0, entry.1)).collect();
+        let inertia = Symmetric::curved(order, &positions)?.factor(entries.iter().map(|entry| entry.2))?;
+        Ok(inertia.negative == wide.len())
+    })
+}
+
+/// A row over the free variables, divided by its slope.
+fn scaled_row(point: &Point<'_>, i: usize, place: &[u32]) -> Vec<(u32, f64)> {
+    let pattern = &point.meta().jacobian;
+    let entry = |at: usize| {
+        let j = pattern.columns[at] as usize;
+        (place[j], point.jacobian[at] * point.sizes[j] / point.slopes[i])
+    };
+    pattern.range(i).map(entry).filter(|&(j, value)| j != u32::MAX && value != 0.0).collect()
+}
+
+impl Basis {
+    /// `None` where a block is large or its rows are nearly dependent.
+    fn of(variables: usize, narrow: &[Vec<(u32, f64)>]) -> Option<Basis> {
+        let members: Vec<Vec<u32>> = narrow.iter().map(|row| row.iter().map(|entry| entry.0).collect()).collect();
+        let partition = Partition::new(variables, members.iter().map(Vec::as_slice), std::iter::empty())?;
+        if partition.largest() > LARGEST_BLOCK {
+            return None;
+        }
+        let (mut rows, mut first_row, mut first_column) = (Vec::with_capacity(variables), Vec::new(), vec![0]);
+        for k in 0..partition.len() {
+            let size = partition.variables(k).len();
+            let own = partition.rows(k).iter().map(|&i| {
+                let mut dense = vec![0.0; size];
+                narrow[i as usize].iter().for_each(|&(j, value)| dense[partition.place(j) as usize] += value);
+                dense
+            });
+            let columns = null_space(size, own.collect())?;
+            first_row.push(rows.len());
+            rows.extend((0..size).flat_map(|j| columns.iter().map(move |column| column[j])));
+            first_column.push(first_column[k] + columns.len());
+        }
+        Some(Basis { partition, rows, first_row, first_column })
+    }
+
+    /// Columns of Z.
+    fn columns(&self) -> usize {
+        self.first_column.last().copied().unwrap_or_default()
+    }
+
+    /// Variable j's row of Z: columns and entries.
+    fn row(&self, j: u32) -> impl Iterator<Item = (u32, f64)> {
+        let block = self.partition.component(j) as usize;
+        let (first, last) = (self.first_column[block], self.first_column[block + 1]);
+        let start = self.first_row[block] + self.partition.place(j) as usize * (last - first);
+        (first..last).map(|column| column as u32).zip(self.rows[start..start + last - first].iter().copied())
+    }
+
+    /// The lower triangle of Zᵀ(S + shift·W)Z.
+    fn reduce_hessian(
+        &self,
+        point: &Point<'_>,
+        hessian: &Hessian,
+        (free, place): (&[usize], &[u32]),
+        shift: f64,
+        entries: &mut Vec<(u32, u32, f64)>,
+    ) {
+        let mut add = |a: u32, b: u32, value: f64| {
+            for (k, z) in self.row(a) {
+                entries.extend(self.row(b).filter(|&(l, _)| l <= k).map(|(l, other)| (k, l, z * value * other)));
+            }
+        };
+        for (at, (row, column)) in point.meta().hessian.iter().enumerate() {
+            let (a, b) = (place[row], place[column]);
+            if a == u32::MAX || b == u32::MAX || hessian.values[at] == 0.0 {
+                continue;
+            }
+            add(a, b, hessian.values[at]);
+            if a != b {
+                add(b, a, hessian.values[at]);
+            }
+        }
+        free.iter().enumerate().for_each(|(k, &j)| add(k as u32, k as u32, shift * weight(hessian.size[j])));
+    }
+}
+
+/// An orthonormal basis of the vectors of this length that are orthogonal to all rows; `None` where the rows are nearly dependent.
+fn null_space(size: usize, rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+    if rows.len() > size {
+        return None;
+    }
+    let mut known: Vec<Vec<f64>> = Vec::with_capacity(size);
+    for mut row in rows {
+        let length = norm(&row);
+        if remainder(&mut row, &known) < OWN_SHARE * length {
+            return None;
+        }
+        normalise(&mut row);
+        known.push(row);
+    }
+    let held = known.len();
+    while known.len() < size {
+        let rest = |j: usize| {
+            let mut unit: Vec<f64> = (0..size).map(|k| if k == j { 1.0 } else { 0.0 }).collect();
+            (remainder(&mut unit, &known), unit)
+        };
+        let (_, mut longest) = (0..size).map(rest).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        normalise(&mut longest);
+        known.push(longest);
+    }
+    Some(known.split_off(held))
+}
+
+/// Takes away what lies along the known vectors, twice, for the last digits; the length of what is left.
+fn remainder(vector: &mut [f64], known: &[Vec<f64>]) -> f64 {
+    for other in known.iter().chain(known) {
+        let along: f64 = vector.iter().zip(other).map(|(a, b)| a * b).sum();
+        vector.iter_mut().zip(other).for_each(|(a, b)| *a -= along * b);
+    }
+    norm(vector)
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|a| a * a).sum::<f64>().sqrt()
+}
+
+fn normalise(vector: &mut [f64]) {
+    let length = norm(vector);
+    vector.iter_mut().for_each(|a| *a /= length);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_null_space_is_orthonormal_and_orthogonal_to_the_rows() {
+        let rows = vec![vec![1.0, -8.0, 0.0], vec![1.0, 3.0, 1e-3]];
+        let basis = null_space(3, rows.clone()).unwrap();
+        assert_eq!(basis.len(), 1);
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        assert!((norm(&basis[0]) - 1.0).abs() < 1e-15 && rows.iter().all(|row| product(row, &basis[0]).abs() < 1e-15));
+        assert_eq!(
+            null_space(2, Vec::new()).unwrap(),
+            [[1.0, 0.0], [0.0, 1.0]].map(Vec::from).into_iter().rev().collect::<Vec<_>>()
+        );
+    }
+
+    #[test]
+    fn nearly_dependent_rows_are_left_to_the_whole_test() {
+        assert!(null_space(3, vec![vec![1.0, 1.0, 0.0], vec![1.0, 1.0 + 1e-5, 0.0]]).is_none());
+        assert!(null_space(1, vec![vec![1.0], vec![2.0]]).is_none());
+    }
+}
