@@ -4,6 +4,7 @@ mod degenerate;
 mod hock_schittkowski;
 mod large;
 mod runs;
+mod wells;
 
 use super::Argmin;
 use crate::backends::{Backend, Job, Solution};
