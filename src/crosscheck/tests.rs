@@ -23,10 +23,12 @@ fn verdict(model: &Sample, class: Class, starts: usize) -> Outcome {
         starts,
         interrupt: None,
     };
-    let mut backends: Vec<(&dyn Backend, &str)> = vec![(&Argmin, "auto")];
-    #[cfg(feature = "nlopt")]
-    backends.push((&crate::backends::nlopt::Nlopt, "auto"));
-    let outcome = run(&task, &backends, &mut |_, _| Box::new(|_| {}));
+    let backends: &[(&dyn Backend, &str)] = &[
+        (&Argmin, "auto"),
+        #[cfg(feature = "nlopt")]
+        (&crate::backends::nlopt::Nlopt, "auto"),
+    ];
+    let outcome = run(&task, backends, &mut |_, _| Box::new(|_| {}));
     println!("{outcome:#?}");
     outcome
 }
