@@ -61,17 +61,11 @@ impl<'a> Kkt<'a> {
         (hessian, size): (Vec<(u32, u32, f64)>, Vec<f64>),
         build: impl Fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>,
     ) -> Result<Self, FactorizationError> {
-        let (pattern, place) = (&point.meta().jacobian, places(point.meta().variables(), free));
-        let (mut rows, mut slopes) = (Vec::new(), Vec::with_capacity(held.len()));
+        let place = places(point.meta().variables(), free);
+        let (mut rows, slopes) = (Vec::new(), held.iter().map(|&i| point.slope_in_sizes(i)).collect());
         for (k, &i) in held.iter().enumerate() {
-            let slope = point.slope_in_sizes(i);
-            slopes.push(slope);
-            for at in pattern.range(i) {
-                let j = pattern.columns[at] as usize;
-                if place[j] != u32::MAX {
-                    rows.push((k as u32, place[j], point.jacobian[at] * point.sizes[j] / slope));
-                }
-            }
+            let of_free = point.row_in_sizes(i).filter(|&(j, _)| place[j] != u32::MAX);
+            rows.extend(of_free.map(|(j, value)| (k as u32, place[j], value)));
         }
         let p = free.len() as u32;
         let mut positions: Vec<_> = (0..p + held.len() as u32).map(|k| (k, k)).collect();

@@ -43,7 +43,11 @@ pub(super) fn bends_up(
         return None;
     }
     let place = super::kkt::places(point.meta().variables(), free);
-    let rows: Vec<Vec<(u32, f64)>> = held.iter().map(|&i| scaled_row(point, i, &place)).collect();
+    let row = |&i: &usize| {
+        let of_free = point.row_in_sizes(i).map(|(j, value)| (place[j], value));
+        of_free.filter(|&(j, value)| j != u32::MAX && value != 0.0).collect()
+    };
+    let rows: Vec<Vec<(u32, f64)>> = held.iter().map(row).collect();
     let (narrow, wide): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.len() <= WIDEST);
     let basis = Basis::of(free.len(), &narrow)?;
     let order = basis.columns() + wide.len();
@@ -59,16 +63,6 @@ pub(super) fn bends_up(
         let inertia = Symmetric::curved(order, &positions)?.factor(entries.iter().map(|entry| entry.2))?;
         Ok(inertia.negative == wide.len())
     })
-}
-
-/// A row over the free variables, divided by its slope.
-fn scaled_row(point: &Point<'_>, i: usize, place: &[u32]) -> Vec<(u32, f64)> {
-    let pattern = &point.meta().jacobian;
-    let entry = |at: usize| {
-        let j = pattern.columns[at] as usize;
-        (place[j], point.jacobian[at] * point.sizes[j] / point.slopes[i])
-    };
-    pattern.range(i).map(entry).filter(|&(j, value)| j != u32::MAX && value != 0.0).collect()
 }
 
 impl Basis {

@@ -93,6 +93,15 @@ impl<'a> Point<'a> {
         pattern.range(i).map(entry).fold(0.0, f64::max)
     }
 
+    /// Row i's gradient in these sizes, divided by its slope in them: (variable, entry).
+    pub(super) fn row_in_sizes(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (pattern, slope) = (&self.meta().jacobian, self.slope_in_sizes(i));
+        pattern.range(i).map(move |at| {
+            let j = pattern.columns[at] as usize;
+            (j, self.jacobian[at] * self.sizes[j] / slope)
+        })
+    }
+
     /// σ, or 1 where every point is stationary.
     pub(super) fn scale(&self) -> f64 {
         if self.sigma > 0.0 { self.sigma } else { 1.0 }

@@ -44,13 +44,10 @@ impl Matrices {
             }
         }
         reset(&mut self.rows, held.len() * free.len());
-        let pattern = &point.meta().jacobian;
         for (row, &i) in held.iter().enumerate() {
-            let slope = point.slope_in_sizes(i);
-            for at in pattern.range(i) {
-                let j = pattern.columns[at] as usize;
+            for (j, value) in point.row_in_sizes(i) {
                 if let Ok(column) = free.binary_search(&j) {
-                    self.rows[row * free.len() + column] = point.jacobian[at] * point.sizes[j] / slope;
+                    self.rows[row * free.len() + column] = value;
                 }
             }
         }
