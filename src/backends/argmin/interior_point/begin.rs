@@ -9,9 +9,6 @@ use super::polish;
 use super::start;
 use crate::model::EvaluationError;
 
-/// Number of variables from which on a problem counts as large.
-const LARGE: usize = 1000;
-
 /// How to begin.
 #[derive(Clone, Copy)]
 pub(super) struct Beginning<'s> {
@@ -37,11 +34,6 @@ impl<'s> Beginning<'s> {
 }
 
 impl<'a> Engine<'a> {
-    /// Whether time is better spent otherwise than on the last digits.
-    pub(super) fn is_large(&self) -> bool {
-        self.form.variables() >= LARGE
-    }
-
     /// At the start, ready to iterate.
     pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
@@ -49,14 +41,14 @@ impl<'a> Engine<'a> {
         form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
         let mu = beginning.mu.unwrap_or(if warm { WARM_BARRIER } else { FIRST_BARRIER });
-        let slack_push = if form.variables() >= LARGE && !warm { start::LARGE_PUSH } else { push };
+        let slack_push = if form.is_large() && !warm { start::LARGE_PUSH } else { push };
         let mut iterate = start::place(&mut form, beginning.x, push, slack_push)?;
         let mut kkt =
             Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
         match beginning.multipliers {
             Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
             // With slacks that begin well inside, zero is as good a guess as least squares, and free.
-            None if form.variables() >= LARGE => start::unit_bound_multipliers(&form, &mut iterate),
+            None if form.is_large() => start::unit_bound_multipliers(&form, &mut iterate),
             None => {
                 start::unit_bound_multipliers(&form, &mut iterate);
                 start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
@@ -82,13 +74,13 @@ impl<'a> Engine<'a> {
             restorations: 0,
             step_norm: 0.0,
             errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
-            unguarded: form.variables() >= LARGE,
+            unguarded: form.is_large(),
             escapes: 0,
             watchdog: None,
             shortened_steps: 0,
             tiny_steps: 0,
             iterations: 0,
-            polish_at: if form.variables() >= LARGE { polish::FIRST_TRIAL } else { 0.0 },
+            polish_at: if form.is_large() { polish::FIRST_TRIAL } else { 0.0 },
             form,
         };
         engine.filter.reset(engine.largest_violation);

@@ -10,6 +10,9 @@ use std::sync::Arc;
 use super::scaling;
 use crate::model::{EvaluationError, Model, Pattern};
 
+/// Number of variables from which on a problem counts as large.
+const LARGE: usize = 1000;
+
 /// A model given, or made for the purpose (the restoration's).
 pub(super) enum Source<'a> {
     Given(&'a dyn Model),
@@ -151,6 +154,11 @@ impl<'a> Form<'a> {
     /// Number of variables that are not fixed.
     pub fn variables(&self) -> usize {
         self.free.len()
+    }
+
+    /// Whether a run goes about it as a large problem: slacks well inside, steps without the filter, no more digits than are needed.
+    pub fn is_large(&self) -> bool {
+        self.variables() >= LARGE
     }
 
     /// Variables and slacks: the length of w.

@@ -56,7 +56,7 @@ impl Engine<'_> {
     /// Replaces the iterate by a polished one where that lowers the optimality error.
     pub(super) fn polish(&mut self) -> Result<(), EvaluationError> {
         self.assess();
-        let enough = if self.is_large() { TOLERANCE } else { ROUNDING };
+        let enough = if self.form.is_large() { TOLERANCE } else { ROUNDING };
         if self.errors.largest() <= enough {
             return Ok(());
         }

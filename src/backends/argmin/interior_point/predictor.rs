@@ -14,7 +14,6 @@ use crate::model::EvaluationError;
 
 /// Iterations without a better optimality error after which the filter takes over.
 const PATIENCE: u64 = 8;
-
 /// Shares of the correction that are tried.
 const SHARES: usize = 5;
 
@@ -96,11 +95,9 @@ impl Engine<'_> {
         let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();
         let mut step = Step::zero(right.len(), rows.len());
         kkt.solve(Sides { w: right, rows: &rows }, &mut step.w, &mut step.y).ok()?;
-        let at = |z: f64, slack: f64, step: f64| if slack.is_finite() { -z * step / slack - z } else { 0.0 };
-        for (j, &w) in iterate.w.iter().enumerate() {
-            step.z_lower[j] = at(iterate.z_lower[j], w - form.lower[j], step.w[j]);
-            step.z_upper[j] = at(iterate.z_upper[j], form.upper[j] - w, -step.w[j]);
-        }
+        let Step { w: w_step, z_lower, z_upper, .. } = &mut step;
+        let multipliers = (&iterate.z_lower[..], &iterate.z_upper[..]);
+        barrier::multiplier_steps(form, &iterate.w, w_step, 0.0, multipliers, (z_lower, z_upper));
         Some(step)
     }
 
