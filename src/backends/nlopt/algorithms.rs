@@ -32,6 +32,8 @@ pub(super) struct Algorithm {
     pub least_variables: usize,
     /// Most equalities for n variables at which it stays inside its memory; those beyond are left out, see `independent`.
     pub most_equalities: Option<fn(usize) -> usize>,
+    /// Between two calls of the model it does a bounded amount of work, whatever the numbers; see `worker`.
+    pub is_bounded: bool,
     /// It steps back from a point whose objective is +∞.
     pub steps_back: bool,
     /// The numbers it stores for n variables and m rows, beside some for each variable and row.
@@ -51,6 +53,7 @@ const LOCAL: Algorithm = Algorithm {
     gradients: true,
     least_variables: 1,
     most_equalities: None,
+    is_bounded: false,
     steps_back: false,
     storage: |n, m| n + m,
     // luksan: ten pairs of vectors, each used twice.
@@ -73,6 +76,7 @@ pub(super) const TABLE: [Algorithm; 11] = [
         // inequalities) of what `lsq_` writes before `lsei_` refuses m_eq > n: an overflow from m_eq = n + 5. Below that every call
         // fails anyhow.
         most_equalities: Some(|n| n),
+        is_bounded: true,
         // slsqp.c, line search (label L200).
         steps_back: true,
         // slsqp.c, `length_work`, with a finite bound on each side of every variable.

@@ -154,12 +154,12 @@ pub(super) fn run(
     let mut session = Session { form, evaluator, watch, steps_back, has_values: false, error: None, panic: None };
     let budget = evaluator.budget();
     let is_over = || budget.check(0).is_err();
-    let returned = worker::minimise(
-        setup(algorithm, form, evaluations, budget.deadline),
-        form.start(),
-        &mut |exchange| session.answer(exchange),
-        &is_over,
-    );
+    let setup = setup(algorithm, form, evaluations, budget.deadline);
+    let mut answer = |exchange: &mut Exchange| session.answer(exchange);
+    let returned = match algorithm.is_bounded {
+        true => worker::minimise_here(&setup, form.start(), &mut answer),
+        false => worker::minimise(setup, form.start(), &mut answer, &is_over),
+    };
     let own = match &returned {
         worker::End::Returned(_, w) => session.own_answer(w),
         _ => None,

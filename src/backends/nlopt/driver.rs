@@ -49,6 +49,7 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
     match translated(&origin, start, step, evaluator) {
         Err(EvaluationError::Stopped(stop)) => End::Stopped(stop),
         Err(error) => End::Invalid(error.to_string()),
+        Ok(form) if form.start().is_empty() => End::Ended { code: 1, words: "no variable that has room to move".into() },
         Ok(form) => {
             watch.begin();
             watch.measure(|x| form.violation_at(x));
@@ -64,8 +65,12 @@ fn translated<'a>(
     step: &Step,
     evaluator: &'a Evaluator<'_>,
 ) -> Result<Form<'a>, EvaluationError> {
-    let size = |(x, start): (&f64, &f64)| x.abs().max(start.abs());
-    let (x, scales): (Vec<f64>, Scales) = valid_start(evaluator, origin, |x| x.iter().zip(start).map(size).collect())?;
+    let meta = evaluator.meta();
+    // Where the model's own start is 0 it says nothing of a variable's size, and a point near 0 by chance does not either.
+    let unknown = |j: usize| if meta.start[j] == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { 0.0 };
+    let size = |(j, (x, start)): (usize, (&f64, &f64))| x.abs().max(start.abs()).max(unknown(j));
+    let (x, scales): (Vec<f64>, Scales) =
+        valid_start(evaluator, origin, |x| x.iter().zip(start).enumerate().map(size).collect())?;
     let mut form = Form::new(evaluator, scales, &x);
     if step.algorithm.most_equalities.is_some() {
         form.keep_independent()?;
