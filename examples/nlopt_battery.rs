@@ -66,7 +66,12 @@ fn shapes() -> Vec<Shape> {
 
 fn sizes(n: usize) -> Vec<Shape> {
     let mut all = vec![Shape::new("no rows", n, 0, 0)];
-    for (class, m) in [("inequalities, m < n", n / 2), ("inequalities, m = n", n), ("inequalities, m > n", 3 * n + 5), ("inequalities, m >> n", 60)] {
+    for (class, m) in [
+        ("inequalities, m < n", n / 2),
+        ("inequalities, m = n", n),
+        ("inequalities, m > n", 3 * n + 5),
+        ("inequalities, m >> n", 60),
+    ] {
         all.extend((m > 0).then(|| Shape::new(class, n, m, 0)));
     }
     for equalities in 1..=n + 8 {
@@ -93,7 +98,9 @@ fn oddities(n: usize) -> Vec<Shape> {
         Shape { fixed: n, ..Shape::new("all variables fixed", 0, 2, n) },
     ];
     all.extend([-320, -150, 99, 101, 200, 307].map(|power| odd(&format!("numbers of 1e{power}"), Values::Magnitude(power))));
-    for (class, bounds) in [("open", OPEN), ("half open", [-2.0, f64::INFINITY]), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])] {
+    for (class, bounds) in
+        [("open", OPEN), ("half open", [-2.0, f64::INFINITY]), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])]
+    {
         all.push(Shape { bounds, ..Shape::new(&format!("bounds {class}, rows"), n, 2, 1) });
         all.push(Shape { bounds, ..Shape::new(&format!("bounds {class}, no rows"), n, 0, 0) });
     }

@@ -88,9 +88,13 @@ fn one_signal_ends_derivative_free_runs() {
 
 /// Rows k·x + y = k + 1, which meet in (1, 1), the least of x² + y² on the first row alone as well.
 fn concurrent_lines(count: usize, shift: f64) -> String {
-    let row = |k: usize| format!("[[constraints]]\nname = \"r{k}\"\nrequire = \"{k}*x + y == {}\"\n", (k + 1) as f64 + shift * (k * k) as f64);
+    let row = |k: usize| {
+        format!("[[constraints]]\nname = \"r{k}\"\nrequire = \"{k}*x + y == {}\"\n", (k + 1) as f64 + shift * (k * k) as f64)
+    };
     let rows: String = (1..=count).map(row).collect();
-    format!("minimize = \"x^2 + y^2\"\n[variables]\nx = {{ lower = -9, upper = 9, start = 0.5 }}\ny = {{ lower = -9, upper = 9, start = 0.5 }}\n{rows}")
+    format!(
+        "minimize = \"x^2 + y^2\"\n[variables]\nx = {{ lower = -9, upper = 9, start = 0.5 }}\ny = {{ lower = -9, upper = 9, start = 0.5 }}\n{rows}"
+    )
 }
 
 #[test]
@@ -107,10 +111,13 @@ fn more_equalities_than_variables_do_not_overrun_slsqps_workspace() {
 /// The variables that are fixed leave two for eight equalities.
 #[test]
 fn fixed_variables_do_not_hide_surplus_equalities() {
-    let rows: String = (1..=8).map(|k| format!("[[constraints]]\nname = \"r{k}\"\nrequire = \"{k}*x[1] + x[2] == {k} + x[{}]\"\n", k + 2)).collect();
+    let rows: String = (1..=8)
+        .map(|k| format!("[[constraints]]\nname = \"r{k}\"\nrequire = \"{k}*x[1] + x[2] == {k} + x[{}]\"\n", k + 2))
+        .collect();
     let ones = ["1"; 8].join(", ");
     let variables = format!("x = {{ size = 10, lower = [-9, -9, {ones}], upper = [9, 9, {ones}], start = [0.5, 0.5, {ones}] }}");
-    let (code, result) = solve_with(&format!("minimize = \"x[1]^2 + x[2]^2\"\n[variables]\n{variables}\n{rows}"), &["--backend", "nlopt"]);
+    let (code, result) =
+        solve_with(&format!("minimize = \"x[1]^2 + x[2]^2\"\n[variables]\n{variables}\n{rows}"), &["--backend", "nlopt"]);
     assert_eq!(code, 0, "{result}");
     assert!((result["objective"].as_f64().unwrap() - 2.0).abs() < 1e-8, "{result}");
 }

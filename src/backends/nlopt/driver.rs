@@ -4,8 +4,15 @@ use super::attempt::{End, run};
 use super::form::Form;
 use super::plan::{From, Step};
 use super::watch::Watch;
-use crate::model::scaled::{Scales, valid_start};
-use crate::model::{EvaluationError, Evaluator, Model};
+use crate::math::split_mix::SplitMix;
+use crate::model::scaled::valid_start;
+use crate::model::{EvaluationError, Evaluator, Meta, Model};
+
+/// Share of a variable's size by which a point beside another lies apart: far enough to leave a flat region of third order,
+/// near enough to stay in its neighbourhood.
+const BESIDE: f64 = 0.01;
+/// Where the signs of such a move come from.
+const SEED: u64 = 20_240_607;
 
 /// What a plan came to.
 pub(super) struct Outcome {
@@ -19,6 +26,10 @@ pub(super) struct Outcome {
 pub(super) fn drive(plan: &[Step], evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> Option<Outcome> {
     let mut counted: Option<Outcome> = None;
     for step in plan {
+        // What has passed is polished by another algorithm only: by its own it ended where rounding did not let it go on.
+        if watch.proved().is_some() && counted.as_ref().is_some_and(|last| last.algorithm == step.algorithm.name) {
+            break;
+        }
         let before = watch.iterations();
         let end = attempt(step, evaluator, watch);
         let is_final = is_over(&end, watch);
@@ -35,18 +46,28 @@ pub(super) fn drive(plan: &[Step], evaluator: &Evaluator<'_>, watch: &mut Watch<
 
 /// Whether nothing further should be tried.
 fn is_over(end: &End, watch: &Watch<'_, '_>) -> bool {
-    let stopped = matches!(end, End::Stopped(_));
-    stopped || watch.proved().is_some() || watch.is_unbounded() || watch.iterations() >= watch.job().max_iterations
+    matches!(end, End::Stopped(_)) || watch.is_unbounded() || watch.iterations() >= watch.job().max_iterations
 }
 
 fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) -> End {
     let start = watch.job().start;
-    let mut origin = match (step.from, watch.best()) {
-        (From::Best, Some(best)) => best.x.clone(),
-        _ => start.to_vec(),
+    let sizes =
+        |x: &[f64]| x.iter().zip(start).enumerate().map(|(j, (&x, &start))| size(j, x, start, evaluator.meta())).collect();
+    let best = watch.best().map_or(start, |best| &best.x);
+    let mut origin = match step.from {
+        From::Start => start.to_vec(),
+        From::Best => best.to_vec(),
+        From::Beside => beside(best, evaluator.meta()),
     };
     evaluator.meta().clamp(&mut origin);
-    match translated(&origin, start, step, evaluator) {
+    let form = valid_start(evaluator, &origin, sizes).and_then(|(x, scales)| {
+        let mut form = Form::new(evaluator, scales, &x);
+        if step.algorithm.most_equalities.is_some() {
+            form.keep_independent()?;
+        }
+        Ok(form)
+    });
+    match form {
         Err(EvaluationError::Stopped(stop)) => End::Stopped(stop),
         Err(error) => End::Invalid(error.to_string()),
         Ok(form) if form.start().is_empty() => End::Ended { code: 1, words: "no variable that has room to move".into() },
@@ -58,22 +79,16 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
     }
 }
 
-/// The problem as NLopt sees it, in units of `origin`, which is moved inside its bounds until the model has values there.
-fn translated<'a>(
-    origin: &[f64],
-    start: &[f64],
-    step: &Step,
-    evaluator: &'a Evaluator<'_>,
-) -> Result<Form<'a>, EvaluationError> {
-    let meta = evaluator.meta();
-    // Where the model's own start is 0 it says nothing of a variable's size, and a point near 0 by chance does not either.
-    let unknown = |j: usize| if meta.start[j] == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { 0.0 };
-    let size = |(j, (x, start)): (usize, (&f64, &f64))| x.abs().max(start.abs()).max(unknown(j));
-    let (x, scales): (Vec<f64>, Scales) =
-        valid_start(evaluator, origin, |x| x.iter().zip(start).enumerate().map(size).collect())?;
-    let mut form = Form::new(evaluator, scales, &x);
-    if step.algorithm.most_equalities.is_some() {
-        form.keep_independent()?;
-    }
-    Ok(form)
+/// max(|x_j|, |start_j|). Where the model's own start is 0 it says nothing of a variable's size, and a point near 0 by chance
+/// does not either: then at least 1, or the room between the bounds.
+fn size(j: usize, x: f64, start: f64, meta: &Meta) -> f64 {
+    let unknown = if meta.start[j] == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { 0.0 };
+    x.abs().max(start.abs()).max(unknown)
+}
+
+/// A little beside `x`, in its own proportions: what runs off or vanishes is not called back by its size at the start.
+fn beside(x: &[f64], meta: &Meta) -> Vec<f64> {
+    let mut random = SplitMix::new(SEED);
+    let size = |j: usize, x: f64| if x == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { x.abs() };
+    x.iter().enumerate().map(|(j, &x)| x + BESIDE * size(j, x) * (2.0 * random.uniform() - 1.0)).collect()
 }

@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn no_row_is_lost_that_another_does_not_hold() {
-        let rows: Vec<Vec<f64>> = (0..6).map(|i| (0..8).map(|j| f64::from(i * j % 7) + f64::from(u8::from(i == j))).collect()).collect();
+        let rows: Vec<Vec<f64>> =
+            (0..6).map(|i| (0..8).map(|j| f64::from(i * j % 7) + f64::from(u8::from(i == j))).collect()).collect();
         let rows: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
         assert_eq!(choice(&rows, &[false; 6]).len(), 6);
         let nearly: [&[f64]; 2] = [&[1.0, 0.0], &[1.0, 1e-9]];

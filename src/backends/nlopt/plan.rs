@@ -2,11 +2,13 @@
 //!
 //! | `auto` for | runs | and then |
 //! |---|---|---|
-//! | bounds only | LBFGS | SLSQP from there, or a truncated Newton method where SLSQP's n³ is too much |
+//! | bounds only | LBFGS | SLSQP from there, which is more exact, or a truncated Newton method where SLSQP's n³ is too much |
 //! | rows, and SLSQP's n²(n + m) is affordable | SLSQP | SLSQP from there, in units of the new point and with its independent equalities |
 //! | rows, and it is not | MMA for inequalities, otherwise AUGLAG | |
 //!
-//! An algorithm that was named runs, and once more from its own end where it uses gradients. Every further start is the caller's.
+//! Where SLSQP has not passed by then, it runs once more from beside its end: it stays at points where everything is flat to
+//! second order (y ≥ x³ at 0), and at a saddle. An algorithm that was named runs, and once more from its own end where it uses
+//! gradients. Every further start is the caller's.
 
 use super::algorithms::{Algorithm, find};
 use crate::model::Meta;
@@ -18,6 +20,8 @@ pub(super) enum From {
     Start,
     /// The best point so far.
     Best,
+    /// The best point so far, each variable moved by up to 1 % of its size, always in the same way.
+    Beside,
 }
 
 /// One attempt.
@@ -52,7 +56,9 @@ pub(super) fn too_much(meta: &Meta) -> Option<String> {
         return Some(format!("auto is for up to {MOST_VARIABLES} variables, and there are {count}; {why}"));
     }
     let why = "its dense algorithms would take too long on them, use the argmin backend";
-    automatic(meta).is_empty().then(|| format!("auto is for small problems, and there are {count} variables and {rows} rows; {why}"))
+    automatic(meta)
+        .is_empty()
+        .then(|| format!("auto is for small problems, and there are {count} variables and {rows} rows; {why}"))
 }
 
 /// The plan of `auto`; empty where nothing is affordable.
@@ -64,7 +70,8 @@ pub(super) fn automatic(meta: &Meta) -> Vec<Step> {
     let found = ways.iter().find_map(|&(first, then)| Some((step(first, From::Start, meta)?, then)));
     let Some((first, then)) = found else { return Vec::new() };
     let polish = then.iter().find_map(|&name| step(name, From::Best, meta));
-    [first].into_iter().chain(polish).collect()
+    let beside = polish.filter(|polish| polish.algorithm.name == "slsqp").map(|polish| Step { from: From::Beside, ..polish });
+    [first].into_iter().chain(polish).chain(beside).collect()
 }
 
 fn step(name: &str, from: From, meta: &Meta) -> Option<Step> {
