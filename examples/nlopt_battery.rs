@@ -97,7 +97,9 @@ fn oddities(n: usize) -> Vec<Shape> {
         Shape { fixed: n + 6, ..Shape::new("fixed variables, m_eq = n + 6", n, 2, n + 6) },
         Shape { fixed: n, ..Shape::new("all variables fixed", 0, 2, n) },
     ];
-    all.extend([1e-320, 1e-150, 1e99, 1e101, 1e200, 1e307].map(|size| odd(&format!("numbers of {size:.0e}"), Values::Magnitude(size))));
+    all.extend(
+        [1e-320, 1e-150, 1e99, 1e101, 1e200, 1e307].map(|size| odd(&format!("numbers of {size:.0e}"), Values::Magnitude(size))),
+    );
     for (class, bounds) in
         [("open", OPEN), ("half open", [-2.0, f64::INFINITY]), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])]
     {
