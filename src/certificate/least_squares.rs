@@ -12,6 +12,8 @@ use crate::linear_algebra::FactorizationError;
 /// The proximal weight ε², relative to columns of size one: below the squares of the distances that decide.
 pub(super) const PROXIMAL: f64 = 1e-13;
 const REPETITIONS: usize = 12;
+/// Likewise from multipliers that are nearly right.
+const REFINEMENTS: usize = 2;
 
 /// One column of B with its sign and weight.
 pub(super) struct Column<'a> {
@@ -67,6 +69,17 @@ pub(super) fn solve_one_of_many(
         }
     }
     pivoted(g, columns, Symmetric::one_of_many).or_else(|_| solve(g, columns))
+}
+
+/// The minimiser nearest to `centre`, all columns free to move, whatever their signs.
+pub(super) fn nearest(g: &[f64], columns: &[Column<'_>], centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+    let mut system = Augmented::new(g, columns, Symmetric::sparse)?;
+    let basic = vec![true; columns.len()];
+    let mut y = centre.to_vec();
+    for pass in 0..REFINEMENTS {
+        y = system.stationary(&basic, pass == 0, &y)?;
+    }
+    Ok(y)
 }
 
 type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;

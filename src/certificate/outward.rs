@@ -4,10 +4,10 @@
 
 use super::Tolerances;
 use super::curvature::{Active, Choice, Hessian};
+use super::feasibility::step_back;
 use super::kkt::Kkt;
 use super::multipliers::Multipliers;
 use super::point::Point;
-use super::reach::step_back;
 use super::trial::Trial;
 
 /// A variable has gone far enough for its growth to show a power law.

@@ -45,6 +45,9 @@ pub struct Meta {
     pub upper: Vec<f64>,
     /// Starting point, inside the bounds.
     pub start: Vec<f64>,
+    /// The magnitude of each variable that its user gave by a start, 0 where none was given; empty where nothing is known. What a
+    /// program fills in for a start that was left out is no size.
+    pub typical: Vec<f64>,
     /// Lower limits of the rows, −∞ where open. Their number is m. An equality has both limits equal.
     pub row_lower: Vec<f64>,
     /// Upper limits of the rows, +∞ where open.
