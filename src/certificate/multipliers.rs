@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
-use super::least_squares::{self, Column};
-use super::normal_equations::NormalEquations;
 use super::point::Point;
+use crate::linear_algebra::signed_least_squares::{self, Column, NormalEquations};
 use crate::model::components::Partition;
 
 /// Groups of rows a thread takes at a time, at the least.
@@ -195,8 +194,8 @@ impl Group<'_> {
             return Vec::new();
         }
         let solved = match many {
-            true => least_squares::solve_one_of_many(&system.gradient, &columns, equations),
-            false => least_squares::solve(&system.gradient, &columns),
+            true => signed_least_squares::solve_one_of_many(&system.gradient, &columns, equations),
+            false => signed_least_squares::solve(&system.gradient, &columns),
         };
         let scaled = solved.unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {

@@ -3,8 +3,8 @@
 //! enough; and by a row's slope, which grows without end where a root ends. Such a point counts as feasible only where one that
 //! meets the rows in the start's own measure lies beside it.
 
-use super::kkt::Kkt;
 use super::point::Point;
+use super::second_order::Kkt;
 
 /// A variable this many times its size at the start is far away.
 const FAR: f64 = 10.0;

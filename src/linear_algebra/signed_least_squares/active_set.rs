@@ -1,11 +1,11 @@
-//! The least squares of [`super::least_squares`] where few variables carry many columns (more active rows than variables): an
+//! The least squares of [`super`] where few variables carry many columns (more active rows than variables): an
 //! active set on dense matrices, which never holds more columns than it needs.
 //!
 //! C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23 (NNLS).
 
 use nalgebra::{DMatrix, DVector};
 
-use super::least_squares::{Column, PROXIMAL, residual};
+use super::problem::{Column, PROXIMAL, residual};
 
 /// Above this many variables a dense factorisation costs more than the sparse one.
 const MOST_VARIABLES: usize = 256;
@@ -117,7 +117,7 @@ impl<'a> ActiveSet<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::least_squares::solve;
+    use crate::linear_algebra::signed_least_squares::solve;
 
     /// A fixed number in [−1, 1) without pattern.
     fn scattered(k: u64) -> f64 {

@@ -1,8 +1,8 @@
-//! The least squares of [`super::least_squares`] where columns are few and well independent: normal equations, refined once by
+//! The least squares of [`super`] where columns are few and well independent: normal equations, refined once by
 //! the residual itself (corrected seminormal equations: Å. Björck, "Stability analysis of the method of seminormal equations",
 //! 1987), which are then as good as an orthogonal factorisation. The minimiser is unique there, so no proximal term is needed.
 
-use super::least_squares::{Column, Stationary};
+use super::problem::{Column, Stationary};
 use crate::linear_algebra::{FactorizationError, cholesky};
 
 /// More columns are left to others.
@@ -12,7 +12,7 @@ const OWN_SHARE: f64 = 1e-4;
 
 /// One system, and room for those that follow.
 #[derive(Default)]
-pub(super) struct NormalEquations {
+pub struct NormalEquations {
     /// g and B, column by column, each of g's length.
     g: Vec<f64>,
     columns: Vec<f64>,
@@ -110,7 +110,7 @@ fn reset(values: &mut Vec<f64>, count: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::least_squares::{solve, solve_one_of_many};
+    use crate::linear_algebra::signed_least_squares::{solve, solve_one_of_many};
 
     fn column(entries: &[(u32, f64)], sign: f64, weight: f64) -> Column<'_> {
         Column { entries, sign, weight, basic: true }
