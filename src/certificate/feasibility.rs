@@ -1,9 +1,9 @@
 //! Whether a point meets its limits: its own violation, the nearest point that meets them to the last digit, and points that
 //! meet them only because they are far away.
 
-use super::kkt::Kkt;
 use super::point::Point;
 use super::scales;
+use super::second_order::Kkt;
 use super::{Place, Worst, worse};
 
 /// A variable this many times its known size is far away.

@@ -2,36 +2,28 @@
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
-mod active_set;
-mod bordered;
 mod candidates;
-mod curvature;
-mod descent;
 mod feasibility;
+mod higher_order;
 mod implied_box;
-mod kkt;
-mod least_squares;
 mod lower_bound;
-mod matrix;
 mod multipliers;
-mod narrow;
-mod normal_equations;
 mod outward;
-mod pieces;
 mod point;
 mod runaway;
 mod scales;
-mod small_kkt;
+mod second_order;
 #[cfg(test)]
 mod tests;
-mod trial;
 mod types;
 mod words;
 
-use curvature::{Active, Curvature, Hessian};
 use feasibility::{Feasibility, worst_violation};
+use std::time::Instant;
+
 use multipliers::Multipliers;
 use point::{Origin, Point};
+use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
 pub use lower_bound::lower_bound;
@@ -66,6 +58,13 @@ impl<'a> Certifier<'a> {
     /// Nothing is evaluated yet.
     pub fn new(model: &'a dyn Model, class: Class, tolerances: Tolerances) -> Self {
         Certifier { origin: Origin::new(model), class, tolerances }
+    }
+
+    /// Searches (for multipliers, for directions) end at that moment, with what they have; a point that would need more is not
+    /// certified.
+    pub fn with_deadline(mut self, until: Option<Instant>) -> Self {
+        self.origin.until = until;
+        self
     }
 
     /// The row multipliers that make `x` as stationary as it allows, without judging it.
@@ -165,17 +164,17 @@ impl<'a> Certifier<'a> {
         let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
         if !self.is_stationary(certificate) {
             if certificate.is_feasible(&self.tolerances) {
-                certificate.multipliers_not_unique = curvature::is_dependent(point, &active);
+                certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
             }
             return Ok(());
         }
         let hessian = Hessian::of(point, multipliers)?;
-        let Curvature { escape, singular, dependent } = curvature::examine(point, &active, &hessian);
+        let Curvature { escape, singular, dependent } = second_order::examine(point, &active, &hessian);
         let bends_down = escape.is_some();
         // Convex problems have no inflections.
         let descent = match bends_down || self.class.is_global() {
             true => None,
-            false => descent::find(point, &active, &hessian, &self.tolerances).unwrap_or_default(),
+            false => higher_order::find(point, &active, &hessian, &self.tolerances).unwrap_or_default(),
         };
         let falls_further = descent.is_some();
         let runaway = match bends_down || falls_further {
@@ -254,7 +253,8 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
 /// Dual infeasibility where σ itself may be rounding (a start that is stationary, or the minimum): what the last digits of x make
 /// of ∂L/∂x_j, through the Hessian, does not count.
 fn beyond_rounding(point: &Point<'_>, multipliers: &Multipliers) -> Result<f64, EvaluationError> {
-    let rounding: Vec<f64> = curvature::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
+    let rounding: Vec<f64> =
+        second_order::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
     Ok(worst_slope(point, multipliers, Some(&rounding)).1)
 }
 

@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
-use super::least_squares::{self, Column};
-use super::normal_equations::NormalEquations;
 use super::point::Point;
+use crate::linear_algebra::signed_least_squares::{self, Column, NormalEquations};
 use crate::model::components::Partition;
 
 /// Groups of rows a thread takes at a time, at the least.
@@ -57,7 +56,7 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
         centre.push(z * point.sizes[j] / scale);
     }
     let gradient: Vec<f64> = point.gradient.iter().zip(&point.sizes).map(|(g, d)| g * d / scale).collect();
-    let found = least_squares::nearest(&gradient, &system.columns(), &centre).ok()?;
+    let found = signed_least_squares::nearest(&gradient, &system.columns(), &centre).ok()?;
     let mut rows = vec![0.0; multipliers.rows.len()];
     for (candidate, value) in system.candidates.iter().zip(found) {
         match candidate.owner {
@@ -252,9 +251,10 @@ impl Group<'_> {
         if columns.is_empty() {
             return Vec::new();
         }
+        let until = self.point.origin.until;
         let solved = match many {
-            true => least_squares::solve_one_of_many(&system.gradient, &columns, equations),
-            false => least_squares::solve(&system.gradient, &columns),
+            true => signed_least_squares::solve_one_of_many(&system.gradient, &columns, equations, until),
+            false => signed_least_squares::solve(&system.gradient, &columns, until),
         };
         let scaled = solved.unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {

@@ -3,12 +3,11 @@
 //! second-order test.
 
 use super::Tolerances;
-use super::curvature::{Active, Choice, Hessian};
 use super::feasibility::step_back;
-use super::kkt::Kkt;
+use super::higher_order::Trial;
 use super::multipliers::Multipliers;
 use super::point::Point;
-use super::trial::Trial;
+use super::second_order::{Active, Choice, Hessian, Kkt};
 
 /// A variable has gone far enough for its growth to show a power law.
 const FAR: f64 = 1e3;

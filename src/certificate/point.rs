@@ -1,6 +1,7 @@
 //! Values, derivatives and scales at the point to be judged.
 
 use std::sync::OnceLock;
+use std::time::Instant;
 
 use super::scales;
 use crate::certificate::Side;
@@ -12,11 +13,13 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// A model ready to have points judged.
 pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
+    /// When searches take what they have.
+    pub(super) until: Option<Instant>,
 }
 
 impl<'a> Origin<'a> {
     pub(super) fn new(model: &'a dyn Model) -> Self {
-        Origin { model: Evaluator::new(model, Budget::default()) }
+        Origin { model: Evaluator::new(model, Budget::default()), until: None }
     }
 
     pub(super) fn meta(&self) -> &Meta {

@@ -2,10 +2,10 @@
 //! falling for ever (exp(x) towards −∞). Such an infimum is not attained.
 
 use super::Tolerances;
-use super::curvature::Active;
+use super::higher_order::Trial;
 use super::outward;
 use super::point::Point;
-use super::trial::Trial;
+use super::second_order::Active;
 use crate::model::{EvaluationError, Model};
 
 /// Single variables tried at the most, and their number times that of all variables.

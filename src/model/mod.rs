@@ -16,7 +16,6 @@ pub mod elastic;
 mod elements;
 pub mod evaluator;
 pub mod logarithmic;
-pub mod pattern;
 pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -26,13 +25,13 @@ pub mod substitution;
 
 use thiserror::Error;
 
+pub use crate::linear_algebra::Pattern;
 pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
-pub use pattern::Pattern;
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
