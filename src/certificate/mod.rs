@@ -8,7 +8,6 @@ mod higher_order;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
-mod outward;
 mod point;
 mod runaway;
 mod scales;
@@ -105,7 +104,7 @@ impl<'a> Certifier<'a> {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
         certificate.scope = Scope::of(self.class);
-        self.second_order(&point, &multipliers, &mut certificate)?;
+        self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
@@ -157,7 +156,7 @@ impl<'a> Certifier<'a> {
     /// What first order leaves open: curvature, what lies beyond it, and variables that have run away.
     fn second_order(
         &self,
-        point: &Point<'_>,
+        point: &mut Point<'_>,
         multipliers: &Multipliers,
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
@@ -168,7 +167,8 @@ impl<'a> Certifier<'a> {
             }
             return Ok(());
         }
-        let hessian = Hessian::of(point, multipliers)?;
+        let hessian = self.hessian(point, multipliers)?;
+        let point = &*point;
         let Curvature { escape, singular, dependent } = second_order::examine(point, &active, &hessian);
         let bends_down = escape.is_some();
         // Convex problems have no inflections.
@@ -179,7 +179,7 @@ impl<'a> Certifier<'a> {
         let falls_further = descent.is_some();
         let runaway = match bends_down || falls_further {
             true => Vec::new(),
-            false => runaway::variables(point, &active, &self.tolerances),
+            false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
         certificate.certified = !bends_down && !falls_further && runaway.is_empty();
         certificate.escape = escape.or(descent);
@@ -214,6 +214,17 @@ impl<'a> Certifier<'a> {
             sigma: point.sigma,
             ..Certificate::default()
         }
+    }
+
+    /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
+    fn hessian(&self, point: &mut Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
+        if self.class.is_global() {
+            return Hessian::of(point, multipliers);
+        }
+        point.look_about();
+        let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
+        point.resize_by_curvature(|j| diagonal[j]);
+        Hessian::of(point, multipliers)
     }
 
     fn is_stationary(&self, certificate: &Certificate) -> bool {

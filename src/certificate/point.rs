@@ -10,6 +10,9 @@ use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 /// Roundings that the value of a row may hold, in units of the sum of its terms.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
+/// A size is changed by this factor at the most: more would be a guess about rounding.
+const RESIZED: f64 = 1e8;
+
 /// A model ready to have points judged.
 pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
@@ -69,13 +72,16 @@ impl<'a> Point<'a> {
         self.sigma = self.sigma.max(scales::slope_about(self.origin, self.x, &self.sizes));
     }
 
-    /// The same with d_j = |x_j| wherever that is not 0: for what happens in proportion.
-    pub(super) fn in_own_sizes(&self) -> Point<'a> {
-        let sizes: Vec<f64> = self.x.iter().zip(&self.sizes).map(|(x, &d)| if *x == 0.0 { d } else { x.abs() }).collect();
-        let slopes = slopes(self.meta(), &self.jacobian, &sizes);
-        let (gradient, rows, jacobian, terms) =
-            (self.gradient.clone(), self.rows.clone(), self.jacobian.clone(), self.terms.clone());
-        Point { sizes, slopes, gradient, rows, jacobian, terms, mean_slopes: OnceLock::new(), ..*self }
+    /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
+    /// one: for them `bend(j)`, ∂²L/∂x_j²·d_j²/σ, tells what a unit is. Others keep theirs.
+    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
+        for (j, size) in self.sizes.iter_mut().enumerate() {
+            let bend = bend(j).abs();
+            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() {
+                *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
+            }
+        }
+        self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);
     }
 
     pub(super) fn meta(&self) -> &'a Meta {

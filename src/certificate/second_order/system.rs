@@ -84,12 +84,12 @@ pub(in crate::certificate) struct Hessian {
 }
 
 impl Hessian {
-    /// The same, its largest row of magnitudes being 1.
-    pub(in crate::certificate) fn normalised(&self) -> Hessian {
-        let largest = self.size.iter().fold(0.0, |most: f64, size| most.max(*size));
-        let unit = if largest > 0.0 { largest } else { 1.0 };
-        let share = |all: &[f64]| all.iter().map(|value| value / unit).collect();
-        Hessian { values: share(&self.values), size: share(&self.size) }
+    /// The diagonal of S, length n.
+    pub(in crate::certificate) fn diagonal(&self, point: &Point<'_>) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.size.len()];
+        let entries = point.meta().hessian.iter().zip(&self.values);
+        entries.filter(|((row, column), _)| row == column).for_each(|((row, _), value)| diagonal[row] += value);
+        diagonal
     }
 
     pub(in crate::certificate) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
