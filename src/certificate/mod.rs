@@ -108,8 +108,8 @@ impl<'a> Certifier<'a> {
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
+        certificate.variable_scales = point.plain_sizes().to_vec();
         certificate.row_values = point.rows;
-        certificate.variable_scales = point.sizes;
         Ok(certificate)
     }
 

@@ -40,6 +40,8 @@ pub(super) struct Point<'a> {
     pub(super) jacobian: Vec<f64>,
     /// d_j
     pub(super) sizes: Vec<f64>,
+    /// d_j as it was before curvature had a say.
+    plain_sizes: Vec<f64>,
     /// σ: ‖D∇f(x)‖∞, or more, see [`Point::look_about`].
     pub(super) sigma: f64,
     /// ‖D∇c_i(x)‖∞
@@ -64,7 +66,8 @@ impl<'a> Point<'a> {
         let sigma = largest(&gradient, &sizes);
         let slopes = slopes(meta, &jacobian, &sizes);
         let terms = scales::row_terms(meta, x, &jacobian);
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, sigma, slopes, terms, mean_slopes: OnceLock::new() })
+        let (plain_sizes, mean_slopes) = (Vec::new(), OnceLock::new());
+        Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, plain_sizes, sigma, slopes, terms, mean_slopes })
     }
 
     /// Where the objective is nearly stationary by itself, its slope at x measures nothing; that about x does.
@@ -75,6 +78,7 @@ impl<'a> Point<'a> {
     /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
     /// one: for them `bend(j)`, ∂²L/∂x_j²·d_j²/σ, tells what a unit is. Others keep theirs.
     pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
+        self.plain_sizes.clone_from(&self.sizes);
         for (j, size) in self.sizes.iter_mut().enumerate() {
             let bend = bend(j).abs();
             if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() {
@@ -82,6 +86,11 @@ impl<'a> Point<'a> {
             }
         }
         self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);
+    }
+
+    /// The variables' sizes whatever the curvature.
+    pub(super) fn plain_sizes(&self) -> &[f64] {
+        if self.plain_sizes.is_empty() { &self.sizes } else { &self.plain_sizes }
     }
 
     pub(super) fn meta(&self) -> &'a Meta {

@@ -35,29 +35,41 @@ pub(super) fn variables(
     let choice = Choice::all(point, active);
     let pivots = pivots(point, hessian, &choice);
     let follows = choice.free.len() + choice.held.len() <= LARGEST;
-    let (free, strict) = if follows { (choice.loose_variables(), choice.strict_rows()) } else { Default::default() };
-    let held: Vec<(usize, f64)> = strict
-        .into_iter()
-        .map(|i| (i, point.row_limit(i, active.multipliers.rows[i])))
-        .filter(|held| held.1.is_finite())
-        .collect();
     let is_feasible =
         |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
-    let site = Site {
-        model: &point.origin.model,
-        x: point.x,
-        sizes: &point.sizes,
-        free: &free,
-        held: &held,
-        multipliers: &active.multipliers.rows,
-        is_feasible: &is_feasible,
+    let held = |rows: Vec<usize>| -> Vec<(usize, f64)> {
+        rows.into_iter().map(|i| (i, resting_limit(point, i))).filter(|held| held.1.is_finite()).collect()
     };
-    let valley = Valley::new(site);
-    let runs_off = |&j: &usize| [1.0, -1.0].into_iter().any(|direction| valley.runs_off(j, direction));
-    match pivots.into_iter().find(runs_off) {
+    let runs_off = |free: &[usize], held: &[(usize, f64)]| {
+        let site = Site {
+            model: &point.origin.model,
+            x: point.x,
+            sizes: point.plain_sizes(),
+            free,
+            held,
+            multipliers: &active.multipliers.rows,
+            is_feasible: &is_feasible,
+        };
+        let valley = Valley::new(site);
+        pivots.iter().copied().find(|&j| [1.0, -1.0].into_iter().any(|direction| valley.runs_off(j, direction)))
+    };
+    let found = if follows {
+        // Far out, multipliers may be too small to tell which rows push.
+        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
+        runs_off(&free, &strict).or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
+    } else {
+        runs_off(&[], &[])
+    };
+    match found {
         Some(j) => vec![j],
         None => towards_bounds(point, tolerances.constraint),
     }
+}
+
+/// The limit row i is nearest to.
+fn resting_limit(point: &Point<'_>, i: usize) -> f64 {
+    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
+    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
 }
 
 /// The variables that move most along flat directions.

@@ -11,6 +11,10 @@ const ENOUGH: i32 = 24;
 const FIRST: f64 = 0.25;
 /// Halvings and doublings of the first step in which an asymptote must have risen on the other side.
 const BACK: std::ops::Range<i32> = -6..40;
+/// Decades towards zero, down from the largest numbers there are.
+const DECADES: i32 = 310;
+/// Halvings between a place with a value and one without.
+const BISECTIONS: usize = 60;
 /// Roundings a value may hold, in units of its own size.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 /// Last digits by which a place is moved to see what rounding makes of a value.
@@ -52,6 +56,12 @@ struct Height {
     noise: f64,
 }
 
+impl Height {
+    fn rises_above(self, base: Height) -> bool {
+        self.value > base.value + 4.0 * (base.noise + self.noise)
+    }
+}
+
 impl<'a> Valley<'a> {
     /// The valley about a site.
     pub fn new(site: Site<'a>) -> Self {
@@ -86,10 +96,9 @@ impl<'a> Valley<'a> {
         let (mut last, origin) = (base, floor.x[pivot]);
         for doubling in 0..DOUBLINGS {
             let step = FIRST * self.site.sizes[pivot] * f64::from(doubling).exp2();
-            let mut next = floor.clone();
-            next.x[pivot] = origin + direction * step;
-            let found = settle(&self.site, pivot, next).and_then(|floor| self.height(&floor).map(|height| (floor, height)));
-            let Some((settled, height)) = found else { if doubling >= ENOUGH { break } else { return None } };
+            let Some((settled, height)) = self.place(pivot, origin + direction * step, &floor) else {
+                if doubling >= ENOUGH { break } else { return None }
+            };
             if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
                 return None;
             }
@@ -101,25 +110,48 @@ impl<'a> Valley<'a> {
         Some((base.value - last.value - base.noise - last.noise).max(0.0))
     }
 
-    /// Whether the objective rises, beyond rounding, on the way back.
+    /// Whether the objective rises, beyond rounding, on the way back: by growing steps, or, where numbers are large, in decades
+    /// towards zero. Where the model's values end on that way, the last place before is looked for.
     fn rises_back(&self, pivot: usize, direction: f64, here: Floor, base: Height) -> bool {
-        let (mut floor, origin) = (here.clone(), here.x[pivot]);
-        for doubling in BACK {
-            let step = FIRST * self.site.sizes[pivot] * f64::from(doubling).exp2();
-            let mut next = floor.clone();
-            next.x[pivot] = origin + direction * step;
-            let found = settle(&self.site, pivot, next).and_then(|floor| self.height(&floor).map(|height| (floor, height)));
-            match found {
-                Some((settled, height)) if (self.site.is_feasible)(&settled.x) => {
-                    if height.value > base.value + 4.0 * (base.noise + height.noise) {
-                        return true;
-                    }
-                    floor = settled;
-                }
-                _ => return false,
+        let origin = here.x[pivot];
+        let steps = BACK.map(|doubling| origin + direction * FIRST * self.site.sizes[pivot] * f64::from(doubling).exp2());
+        let decades = (1..DECADES).map(|decade| origin * 10f64.powi(-decade));
+        let towards_zero = origin * direction < 0.0;
+        self.rises_along(pivot, steps, &here, base) || (towards_zero && self.rises_along(pivot, decades, &here, base))
+    }
+
+    fn rises_along(&self, pivot: usize, ways: impl Iterator<Item = f64>, here: &Floor, base: Height) -> bool {
+        let mut floor = here.clone();
+        for target in ways {
+            match self.place(pivot, target, &floor) {
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, _)) => floor = settled,
+                None => return self.rises_before(pivot, target, floor, base),
             }
         }
         false
+    }
+
+    /// The same between a place that has a value and one that has none.
+    fn rises_before(&self, pivot: usize, mut without: f64, mut floor: Floor, base: Height) -> bool {
+        for _ in 0..BISECTIONS {
+            let target = 0.5 * (floor.x[pivot] + without);
+            match self.place(pivot, target, &floor) {
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, _)) => floor = settled,
+                None => without = target,
+            }
+        }
+        false
+    }
+
+    /// The floor and its height where the pivot stands there.
+    fn place(&self, pivot: usize, target: f64, from: &Floor) -> Option<(Floor, Height)> {
+        let mut next = from.clone();
+        next.x[pivot] = target;
+        let floor = settle(&self.site, pivot, next)?;
+        let height = self.height(&floor)?;
+        Some((floor, height))
     }
 
     /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
