@@ -12,6 +12,8 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// A size is changed by this factor at the most: more would be a guess about rounding.
 const RESIZED: f64 = 1e8;
+/// Variables looked at for that, each for one gradient.
+const RESIZABLE: usize = 64;
 
 /// A model ready to have points judged.
 pub(super) struct Origin<'a> {
@@ -76,13 +78,18 @@ impl<'a> Point<'a> {
     }
 
     /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
-    /// one: for them `bend(j)`, ∂²L/∂x_j²·d_j²/σ, tells what a unit is. Others keep theirs.
+    /// one, where it is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the
+    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j²/σ. Others keep theirs.
     pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
         self.plain_sizes.clone_from(&self.sizes);
+        let mut tried = 0;
         for (j, size) in self.sizes.iter_mut().enumerate() {
             let bend = bend(j).abs();
-            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() {
-                *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
+            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() && tried < RESIZABLE {
+                tried += 1;
+                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * self.sigma / *size) {
+                    *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
+                }
             }
         }
         self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);

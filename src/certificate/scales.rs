@@ -94,6 +94,20 @@ pub(super) fn slope_about(origin: &Origin<'_>, x: &[f64], sizes: &[f64]) -> f64 
     ABOUT.into_iter().find_map(less_steep).unwrap_or(0.0)
 }
 
+/// Whether over a step of a tenth of its size in variable j alone ∂f/∂x_j changes by what a second derivative of this magnitude
+/// says, within a factor of two.
+pub(super) fn is_quadratic(origin: &Origin<'_>, x: &[f64], (j, size): (usize, f64), second: f64) -> bool {
+    let slope = |way: f64| {
+        let (mut there, mut gradient) = (x.to_vec(), vec![0.0; x.len()]);
+        there[j] += way;
+        origin.model.gradient(&there, &mut gradient).ok().map(|_| gradient[j])
+    };
+    let step = ABOUT[0] * size;
+    let said = second * step / size;
+    let change = slope(step).zip(slope(0.0)).map(|(there, here)| (there - here).abs());
+    change.is_some_and(|change| change > 0.5 * said && change < 2.0 * said)
+}
+
 /// x + way·u∘sizes inside the bounds, u in [½, 1] without a pattern, so that sums and differences of variables move, too.
 fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
     let share = |j: usize| 0.5 + 0.5 * ((j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64 / (1u64 << 53) as f64;

@@ -158,7 +158,8 @@ impl<'a> Valley<'a> {
     fn height(&self, floor: &Floor) -> Option<Height> {
         let value = self.value(&floor.x)?;
         let beside = |digits: f64| {
-            let x: Vec<f64> = floor.x.iter().map(|x| x * (1.0 + digits * f64::EPSILON)).collect();
+            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * share(j) * f64::EPSILON);
+            let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
             self.site.model.objective(&x).map_or(0.0, |value| value.abs())
         };
         let objective = self.site.model.objective(&floor.x).ok()?.abs();
@@ -173,6 +174,12 @@ impl<'a> Valley<'a> {
         let objective = self.site.model.objective(x).ok()?;
         Some(objective + self.site.held.iter().map(bought).sum::<f64>())
     }
+}
+
+/// A fixed number in [−1, 1) without a pattern: variables moved alike would keep their differences.
+fn share(j: usize) -> f64 {
+    let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
 #[cfg(test)]

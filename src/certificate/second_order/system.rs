@@ -106,7 +106,8 @@ impl Hessian {
             }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
-                let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());
+                // In this order: the square of a size far out overflows by itself.
+                let entry = part[at] * point.sizes[row] / point.scale() * point.sizes[column];
                 hessian.values[at] += entry;
                 hessian.size[row] += entry.abs();
                 if row != column {

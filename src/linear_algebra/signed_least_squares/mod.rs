@@ -102,9 +102,12 @@ mod tests {
         // Columns 0 and 1 alone balance g; 2 and 3 could take their place, but lie 5e−6 away.
         let unit = [[(0, 1.0)], [(1, 1.0)]];
         let far = |entry: usize| Column { weight: 5e-6, ..column(&unit[entry], -1.0) };
-        let y =
-            solve(&[1.0, 1.0, 0.0], &[column(&[(0, 1.0), (2, 1.0)], -1.0), column(&[(1, 1.0), (2, -1.0)], -1.0), far(0), far(1)])
-                .unwrap();
+        let y = solve(
+            &[1.0, 1.0, 0.0],
+            &[column(&[(0, 1.0), (2, 1.0)], -1.0), column(&[(1, 1.0), (2, -1.0)], -1.0), far(0), far(1)],
+            None,
+        )
+        .unwrap();
         assert!((y[0] + 1.0).abs() < 1e-9 && (y[1] + 1.0).abs() < 1e-9 && y[2].abs() < 1e-9, "{y:?}");
     }
 
