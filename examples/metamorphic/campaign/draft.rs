@@ -115,6 +115,12 @@ impl Draft {
         }
     }
 
+    /// What a solve of the file itself is taken back by.
+    pub fn untransformed(&self) -> Draft {
+        let as_it_is = |origin: &Origin| Origin { now: origin.in_file.clone(), steps: Vec::new(), ..origin.clone() };
+        Draft { origins: self.origins.iter().map(as_it_is).collect(), factor: 1.0, ..self.clone() }
+    }
+
     /// The file.
     pub fn text(&self) -> String {
         let mut out = String::new();

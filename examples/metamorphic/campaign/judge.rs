@@ -1,6 +1,6 @@
 //! Whether a run of a transformed problem says what is true of the file.
 
-use ribopt::certificate::Scope;
+use ribopt::certificate::{Certificate, Scope};
 use ribopt::crosscheck::Status;
 use ribopt::model::Class;
 
@@ -67,7 +67,11 @@ pub fn judge(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
         }
         (_, Status::Certified) if is_one_of(&truth.minima, run, ACCURACY) => None,
         (was, Status::Certified) => Some((Grade::WronglyCertified, format!("the problem is {}", was.as_str()))),
-        (Status::Certified, Status::Uncertified) if truth.without_multipliers && is_one_of(&truth.minima, run, ACCURACY_WITHOUT_MULTIPLIERS) => None,
+        (Status::Certified, Status::Uncertified)
+            if truth.without_multipliers && is_one_of(&truth.minima, run, ACCURACY_WITHOUT_MULTIPLIERS) =>
+        {
+            None
+        }
         (was, is) if was == is => None,
         (was, is) => Some((Grade::Different, format!("{} instead of {}", is.as_str(), was.as_str()))),
     };
@@ -94,13 +98,8 @@ fn is_one_of(minima: &[f64], run: &Run, accuracy: f64) -> bool {
 fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
     let wrong = |why: String| Some((Grade::WronglyCertified, why));
     let value = run.objective.unwrap_or(f64::NAN);
-    let in_file = run.in_file.as_ref()?;
-    let infeasibility = in_file.primal_infeasibility;
-    if infeasibility > FEASIBLE_IN_FILE {
-        return wrong(format!("the point misses the file's limits by {infeasibility:.1e}"));
-    }
-    if !near(value, in_file.objective, 10.0 * ACCURACY) {
-        return wrong(format!("the file's objective at the point is {:?}, not {value:?}", in_file.objective));
+    if let Some(why) = run.in_file.as_ref().and_then(|in_file| contradiction(value, in_file)) {
+        return wrong(why);
     }
     if is_one_of(&truth.minima, run, ACCURACY) {
         return lost_class_or_scope(truth, done, run);
@@ -116,14 +115,29 @@ fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
     if run.scope == Scope::Global || truth.class.is_global() {
         return wrong(format!("above the optimum {best:?} of a {} problem by {off:.1e}", truth.class));
     }
-    if in_file.certified {
-        let another = format!("another local minimum, above {best:?} by {off:.1e}");
-        return (!done.moves_start).then_some((Grade::Different, another));
+    another_minimum(run.in_file.as_ref(), done, &format!("above {best:?} by {off:.1e}"))
+}
+
+/// What the file itself has against a certified point.
+fn contradiction(value: f64, in_file: &Certificate) -> Option<String> {
+    if in_file.primal_infeasibility > FEASIBLE_IN_FILE {
+        return Some(format!("the point misses the file's limits by {:.1e}", in_file.primal_infeasibility));
     }
-    let measures = format!("dual infeasibility {:.1e}, negative curvature {}", in_file.dual_infeasibility, in_file.negative_curvature);
-    let why = format!("above {best:?} by {off:.1e} and not certified in the file: {measures}");
+    let same = near(value, in_file.objective, 10.0 * ACCURACY);
+    (!same).then(|| format!("the file's objective at the point is {:?}, not {value:?}", in_file.objective))
+}
+
+/// A certified value that is not among the known ones, in a problem whose minima are local.
+fn another_minimum(in_file: Option<&Certificate>, done: &Done, off: &str) -> Option<Fault> {
+    let Some(in_file) = in_file else { return Some((Grade::Different, format!("{off}, which the file cannot be asked about"))) };
+    if in_file.certified {
+        return (!done.moves_start).then(|| (Grade::Different, format!("another local minimum, {off}")));
+    }
+    let measures =
+        format!("dual infeasibility {:.1e}, negative curvature {}", in_file.dual_infeasibility, in_file.negative_curvature);
     let is_none = in_file.negative_curvature || in_file.falls_further || in_file.dual_infeasibility > NOT_STATIONARY;
-    Some((if is_none { Grade::WronglyCertified } else { Grade::Different }, why))
+    let grade = if is_none { Grade::WronglyCertified } else { Grade::Different };
+    Some((grade, format!("{off} and not certified in the file: {measures}")))
 }
 
 fn lost_class_or_scope(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {

@@ -37,6 +37,7 @@ pub const KINDS: &[Kind] = &[
     Kind { name: "redundant-rows", apply: rows::add_redundant, keeps: LINEAR },
     Kind { name: "split-rows", apply: rows::split, keeps: EVERY },
     Kind { name: "fixed-variables", apply: variables::add_fixed, keeps: NOT_GEOMETRIC },
+    Kind { name: "fixed-factors", apply: variables::multiply_by_fixed, keeps: &[Class::GeometricProgram] },
     Kind { name: "slacks", apply: rows::write_out_slacks, keeps: LINEAR },
     Kind { name: "start-elsewhere", apply: variables::start_elsewhere, keeps: EVERY },
     Kind { name: "start-left-out", apply: variables::leave_out_starts, keeps: EVERY },
@@ -51,6 +52,13 @@ fn scale_everything(draft: &mut Draft, random: &mut Random) -> bool {
     let scaled = variables::scale_all(draft, random);
     rows::scale_all(draft, random);
     rows::scale_objective(draft, random) && scaled
+}
+
+/// Whether two kinds scale the same things: together they would exceed 10^±6.
+fn scale_the_same(one: &str, other: &str) -> bool {
+    let scaled = |name: &str| name.strip_prefix("scale-").map(|what| what.trim_end_matches('s').to_string());
+    let every = |what: &str| what == "everything";
+    scaled(one).zip(scaled(other)).is_some_and(|(one, other)| one == other || every(&one) || every(&other))
 }
 
 /// What was done to a draft.
@@ -78,6 +86,9 @@ pub fn transform(draft: &mut Draft, class: Class, only: Option<&str>, random: &m
     }
     random.shuffle(&mut kinds);
     for kind in kinds {
+        if done.names.iter().any(|name| scale_the_same(name, kind.name)) {
+            continue;
+        }
         let before = draft.clone();
         if !(kind.apply)(draft, random) {
             *draft = before;

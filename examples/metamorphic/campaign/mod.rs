@@ -69,9 +69,8 @@ pub struct Found {
     /// Gravest first.
     pub findings: Vec<Finding>,
     pub runs: usize,
-    /// Runs that ended long after their limit, and the longest.
-    pub late: usize,
-    pub longest: f64,
+    /// Seconds, file and kind of runs that ended long after their limit, the longest first.
+    pub late: Vec<(f64, String, String)>,
     /// Problems whose untransformed file is left out, and why.
     pub left_out: Vec<String>,
     pub seconds: f64,
@@ -100,7 +99,8 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     let begin = Instant::now();
     fs::create_dir_all(&plan.folder).map_err(|cause| format!("{}: {cause}", plan.folder.display()))?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.jobs).build().map_err(|cause| cause.to_string())?;
-    let mut files: Vec<PathBuf> = plan.folders.iter().flat_map(|folder| support::problem_files(&folder.to_string_lossy())).collect();
+    let mut files: Vec<PathBuf> =
+        plan.folders.iter().flat_map(|folder| support::problem_files(&folder.to_string_lossy())).collect();
     files.retain(|file| !plan.without.iter().any(|part| file.to_string_lossy().contains(part)));
     // No more of them than runs: a sample needs no more.
     Random::of_run(plan.seed, usize::MAX).shuffle(&mut files);
@@ -124,12 +124,12 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
         let numbers = (plan.first..plan.first + plan.count).into_par_iter().with_max_len(1);
         numbers.map(|number| one(number, &problems[number % problems.len()], plan, &count)).collect()
     });
-    for (finding, seconds) in runs.into_iter().flatten() {
+    for (finding, late) in runs.into_iter().flatten() {
         found.runs += 1;
-        found.late += usize::from(seconds > plan.seconds + 1.0);
-        found.longest = found.longest.max(seconds);
         found.findings.extend(finding);
+        found.late.extend(late);
     }
+    found.late.sort_by(|one, other| other.0.total_cmp(&one.0));
     found.findings.sort_by_key(|finding| (finding.fault.0, finding.problem.clone(), finding.run));
     found.seconds = begin.elapsed().as_secs_f64();
     Ok(found)
@@ -137,15 +137,17 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
 
 fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {
     let draft = reading::read(path)?;
-    let name = support::name(path).replace('/', "-");
+    let name = name(path);
     let folder = plan.folder.join(format!("as-it-is-{name}"));
-    let run = solving::run(path, &draft, path, &folder, plan.seconds);
+    let run = solving::run(path, &draft.untransformed(), path, &folder, plan.seconds);
     let _ = fs::remove_dir_all(&folder);
     let run = run?;
     let undecided = [Status::LimitReached, Status::Interrupted, Status::InvalidValue];
     let truth = match promised(path, &run)? {
         Some(truth) => truth,
-        None if undecided.contains(&run.status) => return Err(format!("{}, and no comment says what is right", run.status.as_str())),
+        None if undecided.contains(&run.status) => {
+            return Err(format!("{}, and no comment says what is right", run.status.as_str()));
+        }
         None => Truth {
             status: run.status,
             minima: run.objective.into_iter().collect(),
@@ -155,6 +157,13 @@ fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {
         },
     };
     Ok(Problem { path: path.into(), name, draft, truth, run })
+}
+
+/// Folder and stem of a file.
+fn name(path: &Path) -> String {
+    let words = [path.parent().and_then(Path::file_name), path.file_stem()];
+    let words: Vec<_> = words.into_iter().flatten().map(|word| word.to_string_lossy()).collect();
+    words.join("-")
 }
 
 /// What the comments of a file promise, where they do.
@@ -183,8 +192,11 @@ fn untransformed(problem: &Problem, plan: &Plan) -> Option<Finding> {
     Some(Finding { run: 0, problem: problem.name.clone(), done, fault, verdict, kept: problem.path.clone() })
 }
 
-/// One run: a fault if it is one, and its seconds. `None` where no transformation applies.
-fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Option<(Option<Finding>, f64)> {
+/// A run's fault and its lateness, where it has them.
+type Ended = (Option<Finding>, Option<(f64, String, String)>);
+
+/// One run. `None` where no transformation applies.
+fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Option<Ended> {
     let mut draft = problem.draft.clone();
     let done = transform(&mut draft, problem.truth.class, plan.only.as_deref(), &mut Random::of_run(plan.seed, number))?;
     let name = format!("{number:06}-{}-{}", problem.name, done.name());
@@ -194,9 +206,9 @@ fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Op
     let written = fs::write(&kept, format!("{origin}\n{}", draft.text())).map_err(|cause| cause.to_string());
     let result = written.and_then(|()| solving::run(&kept, &draft, &problem.path, &folder, plan.seconds));
     let _ = fs::remove_dir_all(&folder);
-    let (fault, verdict, seconds) = match &result {
-        Err(why) => (Some((Grade::Different, format!("no verdict: {why}"))), String::new(), 0.0),
-        Ok(run) => (judge(&problem.truth, &done, run), report::verdict(run, plan.seconds), run.seconds),
+    let (fault, verdict) = match &result {
+        Err(why) => (Some((Grade::Different, format!("no verdict: {why}"))), String::new()),
+        Ok(run) => (judge(&problem.truth, &done, run), report::verdict(run, plan.seconds)),
     };
     // Where the file as it is fails alike, that is said once.
     let fails_alike = judge(&problem.truth, &Done::default(), &problem.run).is_some()
@@ -205,8 +217,9 @@ fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Op
     if !plan.quiet {
         report::progress(1 + count.fetch_add(1, Ordering::Relaxed), RUNS_PER_WORD);
     }
-    let is_kept = fault.is_some() || result.as_ref().is_ok_and(|run| is_late(run, plan.seconds));
-    if !is_kept {
+    let late = result.as_ref().ok().filter(|run| is_late(run, plan.seconds));
+    let late = late.map(|run| (run.seconds, problem.name.clone(), done.name()));
+    if fault.is_none() && late.is_none() {
         let _ = fs::remove_file(&kept);
     }
     let finding = fault.map(|fault| {
@@ -214,5 +227,5 @@ fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Op
         let _ = fs::write(&kept, format!("{comments}{}", draft.text()));
         Finding { run: number, problem: problem.name.clone(), done, fault, verdict, kept }
     });
-    Some((finding, seconds))
+    Some((finding, late))
 }

@@ -6,6 +6,9 @@ use super::judge::{Grade, is_late};
 use super::solving::Run;
 use super::{Finding, Found};
 
+/// Lines on runs that ended after their limit.
+const LATE_SHOWN: usize = 20;
+
 /// What a run says, in a few words.
 pub fn verdict(run: &Run, limit: f64) -> String {
     let scope = format!("{:?}", run.scope).to_lowercase();
@@ -27,7 +30,10 @@ pub fn text(found: &Found) -> String {
         let _ = writeln!(out, "left out  {left_out}");
     }
     let counts: Vec<String> = Grade::ALL.iter().map(|&grade| format!("{} {}", found.count(grade), grade.words())).collect();
-    let late = format!("{} after their limit, the longest took {:.1} s", found.late, found.longest);
+    for (seconds, problem, done) in found.late.iter().take(LATE_SHOWN) {
+        let _ = writeln!(out, "late  {problem}  {done}: ended after {seconds:.1} s");
+    }
+    let late = format!("{} ended after their limit", found.late.len());
     let _ = writeln!(out, "{} runs in {:.0} s: {}; {late}", found.runs, found.seconds, counts.join(", "));
     out
 }

@@ -38,7 +38,7 @@ pub fn run(path: &Path, draft: &Draft, original: &Path, folder: &Path, seconds: 
     let (subject, outcome) = solved.unwrap_or_else(|panic| Err(format!("panic: {}", panic_text(&*panic))))?;
     let seconds = begin.elapsed().as_secs_f64();
     let in_file = match outcome.status {
-        Status::Certified => Some(judged_in_file(&subject, &outcome.x, draft, original, folder)?),
+        Status::Certified => judged_in_file(&subject, &outcome.x, draft, original, folder)?,
         _ => None,
     };
     let in_file_units = |value: f64| value / draft.factor;
@@ -68,8 +68,14 @@ fn panic_text(panic: &(dyn Any + Send)) -> String {
     text.unwrap_or("no words").to_string()
 }
 
-/// `ribopt verify` of the original file at the point.
-fn judged_in_file(subject: &Subject, x: &[f64], draft: &Draft, original: &Path, folder: &Path) -> Result<Certificate, String> {
+/// `ribopt verify` of the original file at the point; nothing where the file's model has auxiliary variables besides the user's.
+fn judged_in_file(
+    subject: &Subject,
+    x: &[f64],
+    draft: &Draft,
+    original: &Path,
+    folder: &Path,
+) -> Result<Option<Certificate>, String> {
     let mut answer = String::from("name,value\n");
     for origin in &draft.origins {
         let at = (0..x.len()).find(|&j| subject.model().variable_name(j) == origin.now);
@@ -80,6 +86,12 @@ fn judged_in_file(subject: &Subject, x: &[f64], draft: &Draft, original: &Path, 
     let file = folder.join("in-file.csv");
     fs::write(&file, answer).map_err(|cause| cause.to_string())?;
     let subject = Subject::read(original, &[]).map_err(|error| error.to_string())?;
-    let outcome = verify(&subject, &file).map_err(|error| error.to_string())?;
-    outcome.certificate.ok_or_else(|| format!("certified where the file has no value: {}", outcome.message))
+    match verify(&subject, &file) {
+        Err(RunError::Answer(_)) => Ok(None),
+        Err(other) => Err(other.to_string()),
+        Ok(outcome) if outcome.certificate.is_none() => {
+            Err(format!("certified where the file has no value: {}", outcome.message))
+        }
+        Ok(outcome) => Ok(outcome.certificate),
+    }
 }

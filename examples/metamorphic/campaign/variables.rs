@@ -148,26 +148,53 @@ pub fn permute(draft: &mut Draft, random: &mut Random) -> bool {
     draft.variables.len() + draft.sections.len() > 1
 }
 
-/// Variables whose bounds are equal, in the objective and in a row where they add exactly 0.
+/// Variables whose bounds are equal, as terms that add exactly 0. In rows they are fixed at 0, so that the size of a row's terms,
+/// which its tolerance is relative to, stays.
 pub fn add_fixed(draft: &mut Draft, random: &mut Random) -> bool {
+    let value = random.of_magnitude(-3.0, 3.0);
+    let name = insert_fixed(draft, random, value);
+    let nothing = format!("{}*({name} - {})", number(random.of_magnitude(-2.0, 0.0)), number(value));
+    draft.objective = format!("({}) + {nothing}", draft.objective);
+    for _ in 0..random.below(3) {
+        let name = insert_fixed(draft, random, 0.0);
+        let nothing = format!("{}*{name}", number(random.of_magnitude(-3.0, 3.0)));
+        change_side(draft, random, |left| format!("{left} + {nothing}"));
+    }
+    true
+}
+
+/// Variables whose bounds are equal, as factors that are exactly 1.
+pub fn multiply_by_fixed(draft: &mut Draft, random: &mut Random) -> bool {
     for _ in 0..=random.below(3) {
-        let (name, value) = (draft.fresh("fixed"), random.of_magnitude(-3.0, 6.0));
-        let fixed = Variable::scalar(name.clone(), [value, value], Some(value));
-        draft.variables.insert(random.below(draft.variables.len() + 1), fixed);
-        let nothing = format!("{}*({name} - {})", number(random.of_magnitude(-2.0, 2.0)), number(value));
-        draft.objective = format!("({}) + {nothing}", draft.objective);
-        if draft.rows.is_empty() {
-            continue;
-        }
-        let row = random.below(draft.rows.len());
-        let row = &mut draft.rows[row];
-        match Requirement::parse(&row.require) {
-            Some(Requirement::AtMost(left, right)) => row.require = format!("{left} + {nothing} <= {right}"),
-            Some(Requirement::AtLeast(left, right)) => row.require = format!("{left} >= {right} + {nothing}"),
-            _ => {}
+        let value = random.of_magnitude(-3.0, 3.0).abs();
+        let one = format!("{}/{}", insert_fixed(draft, random, value), number(value));
+        if random.coin() {
+            draft.objective = format!("{one}*({})", draft.objective);
+        } else {
+            change_side(draft, random, |left| format!("{one}*({left})"));
         }
     }
     true
+}
+
+fn insert_fixed(draft: &mut Draft, random: &mut Random, value: f64) -> String {
+    let name = draft.fresh("fixed");
+    let fixed = Variable::scalar(name.clone(), [value, value], Some(value));
+    draft.variables.insert(random.below(draft.variables.len() + 1), fixed);
+    name
+}
+
+/// Rewrites the left side of a row, or the middle of a two-sided one.
+fn change_side(draft: &mut Draft, random: &mut Random, change: impl Fn(String) -> String) {
+    let at = random.below(draft.rows.len());
+    let Some(row) = draft.rows.get_mut(at) else { return };
+    let changed = Requirement::parse(&row.require).map(|requirement| match requirement {
+        Requirement::AtMost(left, right) => Requirement::AtMost(change(left), right),
+        Requirement::AtLeast(left, right) => Requirement::AtLeast(change(left), right),
+        Requirement::Equal(left, right) => Requirement::Equal(change(left), right),
+        Requirement::Range(lower, middle, upper) => Requirement::Range(lower, change(middle), upper),
+    });
+    row.require = changed.map_or(row.require.clone(), |requirement| requirement.text());
 }
 
 /// Starts anywhere inside the bounds.
