@@ -16,11 +16,12 @@ mod variables;
 mod words;
 
 use std::fs;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::Instant;
 
-use rayon::prelude::*;
 use ribopt::crosscheck::Status;
 use ribopt::problem::Sense;
 use ribopt::run::Subject;
@@ -98,14 +99,13 @@ struct Problem {
 pub fn run(plan: &Plan) -> Result<Found, String> {
     let begin = Instant::now();
     fs::create_dir_all(&plan.folder).map_err(|cause| format!("{}: {cause}", plan.folder.display()))?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.jobs).build().map_err(|cause| cause.to_string())?;
     let mut files: Vec<PathBuf> =
         plan.folders.iter().flat_map(|folder| support::problem_files(&folder.to_string_lossy())).collect();
     files.retain(|file| !plan.without.iter().any(|part| file.to_string_lossy().contains(part)));
     // No more of them than runs: a sample needs no more.
     Random::of_run(plan.seed, usize::MAX).shuffle(&mut files);
     files.truncate(plan.first + plan.count);
-    let read: Vec<_> = pool.install(|| files.par_iter().with_max_len(1).map(|path| problem(path, plan)).collect());
+    let read = side_by_side(plan.jobs, files.len(), &|at| problem(&files[at], plan));
     let mut found = Found::default();
     let mut problems = Vec::new();
     for (path, result) in files.iter().zip(read) {
@@ -120,9 +120,9 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     let as_they_are = problems.iter().filter_map(|problem| untransformed(problem, plan));
     found.findings.extend(as_they_are);
     let count = AtomicUsize::new(0);
-    let runs: Vec<_> = pool.install(|| {
-        let numbers = (plan.first..plan.first + plan.count).into_par_iter().with_max_len(1);
-        numbers.map(|number| one(number, &problems[number % problems.len()], plan, &count)).collect()
+    let runs = side_by_side(plan.jobs, plan.count, &|at| {
+        let number = plan.first + at;
+        one(number, &problems[number % problems.len()], plan, &count)
     });
     for (finding, late) in runs.into_iter().flatten() {
         found.runs += 1;
@@ -133,6 +133,28 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     found.findings.sort_by_key(|finding| (finding.fault.0, finding.problem.clone(), finding.run));
     found.seconds = begin.elapsed().as_secs_f64();
     Ok(found)
+}
+
+/// Results 0 … n − 1 by so many threads. Not by rayon: a solve waiting for its own parts there would take up another run meanwhile,
+/// and count its time.
+fn side_by_side<T: Send>(threads: usize, n: usize, result: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut own = Vec::new();
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            if at >= n {
+                return own;
+            }
+            own.push((at, result(at)));
+        }
+    };
+    let mut results: Vec<(usize, T)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    });
+    results.sort_by_key(|(at, _)| *at);
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {

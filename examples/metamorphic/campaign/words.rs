@@ -126,3 +126,26 @@ fn compared(text: &str) -> (Vec<&str>, Vec<&str>) {
 pub fn number(value: f64) -> String {
     if value < 0.0 { format!("({value:?})") } else { format!("{value:?}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_replaced_where_they_stand_for_a_variable() {
+        let new = |word: &str, index: &str| (word == "x").then(|| format!("(2*y{index})"));
+        let text = "x*exp(x[2 + n]) - a.x + xx + 1e5x + sum(ribs where line == \"x\": x)";
+        let expected = "(2*y)*exp((2*y[2 + n])) - a.x + xx + 1e5(2*y) + sum(ribs where line == \"x\": (2*y))";
+        assert_eq!(replace_names(text, &new), expected);
+        assert_eq!(replace_names("2.5e-3*x^.5", &new), "2.5e-3*(2*y)^.5");
+    }
+
+    #[test]
+    fn requirements_are_taken_apart_at_their_own_signs() {
+        let own = |text: &str| Requirement::parse(text).map(|requirement| requirement.map(|side| format!("k*({side})")).text());
+        assert_eq!(own("a + b <= c").as_deref(), Some("k*(a + b) <= k*(c)"));
+        assert_eq!(own("2 >= x[1] >= 1").as_deref(), Some("k*(1) <= k*(x[1]) <= k*(2)"));
+        assert_eq!(own("sum(ribs where c >= 2: x) == 1").as_deref(), Some("k*(sum(ribs where c >= 2: x)) == k*(1)"));
+        assert_eq!(own("a"), None);
+    }
+}
