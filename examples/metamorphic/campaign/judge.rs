@@ -15,6 +15,8 @@ const ACCURACY_WITHOUT_MULTIPLIERS: f64 = 5e-3;
 const FEASIBLE_IN_FILE: f64 = 1e-6;
 /// A dual infeasibility in the file that no rounding of the way back explains: optimality is accepted at 1e-6.
 const NOT_STATIONARY: f64 = 1e-4;
+/// Points that have run off have the objective's infimum to this; a local minimum seldom has.
+const SETTLED: f64 = 1e-3;
 /// Seconds a run may take beyond its limit.
 const GRACE: f64 = 1.0;
 
@@ -45,6 +47,8 @@ pub struct Truth {
     /// The optimum (to be minimised) and further minima that are no worse an answer.
     pub minima: Vec<f64>,
     pub without_multipliers: bool,
+    /// Where the minimum is not attained: the objective of the run of the file as it is.
+    pub settles: Option<f64>,
     /// Of the run of the file as it is.
     pub class: Class,
     pub scope: Scope,
@@ -66,7 +70,10 @@ pub fn judge(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
             Some((Grade::WronglyInfeasible, format!("a feasible problem, said with {:?} scope", run.scope).to_lowercase()))
         }
         (_, Status::Certified) if is_one_of(&truth.minima, run, ACCURACY) => None,
-        (was, Status::Certified) => Some((Grade::WronglyCertified, format!("the problem is {}", was.as_str()))),
+        (was, Status::Certified) => {
+            let grade = if may_be_a_minimum(truth, done, run) { Grade::Different } else { Grade::WronglyCertified };
+            Some((grade, format!("the problem is {}", was.as_str())))
+        }
         (Status::Certified, Status::Uncertified)
             if truth.without_multipliers && is_one_of(&truth.minima, run, ACCURACY_WITHOUT_MULTIPLIERS) =>
         {
@@ -85,6 +92,14 @@ pub fn is_late(run: &Run, limit: f64) -> bool {
 
 fn is_local_from_elsewhere(done: &Done, run: &Run) -> bool {
     done.moves_start && run.scope == Scope::Local && run.class == Class::Nonlinear
+}
+
+/// From another start a problem that is unbounded or not attained may have a local minimum. The file confirms it, and it is not where
+/// the objective settles at as variables run off.
+fn may_be_a_minimum(truth: &Truth, done: &Done, run: &Run) -> bool {
+    let confirmed = run.in_file.as_ref().is_some_and(|in_file| in_file.certified);
+    let settled = truth.settles.zip(run.objective).is_some_and(|(infimum, value)| near(value, infimum, SETTLED));
+    is_local_from_elsewhere(done, run) && confirmed && truth.status != Status::Infeasible && !settled
 }
 
 fn near(value: f64, known: f64, accuracy: f64) -> bool {

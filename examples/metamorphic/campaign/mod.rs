@@ -174,6 +174,7 @@ fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {
             status: run.status,
             minima: run.objective.into_iter().collect(),
             without_multipliers: false,
+            settles: run.objective.filter(|_| run.status == Status::NotAttained),
             class: run.class,
             scope: run.scope,
         },
@@ -201,6 +202,7 @@ fn promised(path: &Path, run: &Run) -> Result<Option<Truth>, String> {
         status: promise.status,
         minima: promise.optimum.into_iter().chain(promise.local).map(|value| sign * value).collect(),
         without_multipliers: promise.without_multipliers,
+        settles: run.objective.filter(|_| run.status == Status::NotAttained),
         class: run.class,
         scope: run.scope,
     }))

@@ -110,13 +110,17 @@ fn scale(draft: &mut Draft, random: &mut Random, at: usize) {
     substitute(draft, random, at, &steps);
 }
 
+/// A bound as far away as this says «none» and not how large the variable is.
+const NO_SIZE: f64 = 1e12;
+
 /// Variables counted from elsewhere, by up to ten times their size. Powers of two: most bounds are moved without rounding.
 pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
     lift_dimensions(draft);
     for at in 0..draft.variables.len() {
         let variable = &draft.variables[at];
         let shift = |i: usize| {
-            let by = random.of_magnitude(-1.0, 1.0) * variable.size(i);
+            let size = Some(variable.size(i)).filter(|&size| size < NO_SIZE).unwrap_or(1.0);
+            let by = random.of_magnitude(-1.0, 1.0) * size;
             Step::Affine(1.0, by.signum() * by.abs().log2().round().exp2())
         };
         let steps: Vec<Step> = (0..variable.lower.len()).map(shift).collect();
