@@ -31,7 +31,12 @@ fn lift_dimensions(draft: &mut Draft) {
 fn substitute(draft: &mut Draft, random: &mut Random, at: usize, steps: &[Step]) {
     let old = draft.variables[at].clone();
     let name = draft.fresh(&old.name);
-    draft.variables[at] = transformed(&old, &name, steps);
+    let new = transformed(&old, &name, steps);
+    let infinite = |values: &[f64]| values.iter().filter(|value| value.is_infinite()).count();
+    if infinite(&new.lower) + infinite(&new.upper) > infinite(&old.lower) + infinite(&old.upper) {
+        return; // A bound beyond the largest number would be none.
+    }
+    draft.variables[at] = new;
     let formula = formula(draft, &old, &name, steps);
     if draft.is_algebraic() && random.coin() {
         let write = |word: &str, index: &str| (word == old.name).then(|| formula(index));
