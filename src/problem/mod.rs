@@ -16,7 +16,7 @@ pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
 pub mod profile;
-mod ratio;
+pub mod ratio;
 pub mod resolve;
 pub mod settings;
 pub mod texts;
