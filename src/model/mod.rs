@@ -61,6 +61,15 @@ pub struct Meta {
     pub hessian: Pattern,
 }
 
+/// How many variables and rows are the user's own; what follows them is auxiliary and no business of a report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Own {
+    /// Variables.
+    pub variables: usize,
+    /// Rows.
+    pub rows: usize,
+}
+
 impl Meta {
     /// Number of variables n.
     pub fn variables(&self) -> usize {
@@ -101,6 +110,15 @@ pub trait Model: Sync {
 
     /// The values of `weight·∇²f + Σ y_i ∇²c_i` along [`Meta::hessian`], overwritten.
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
+
+    /// How many variables and rows are the user's own.
+    fn own(&self) -> Own {
+        Own { variables: self.meta().variables(), rows: self.meta().rows() }
+    }
+
+    /// Gives auxiliary variables the values that follow from the user's own, so that the objective and the rows are what the
+    /// user's expressions are at this point.
+    fn complete(&self, _x: &mut [f64]) {}
 
     /// The model seen as independent small ones, where it falls apart and can be evaluated piece by piece.
     fn components(&self) -> Option<Box<dyn Components + '_>> {

@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
 use super::assembled::{Affine, RibModel, RowOrigin};
-use super::{Meta, Pattern};
+use super::{Meta, Model, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 pub use classify::{Classification, classify};
@@ -58,7 +58,11 @@ fn assemble_with<'a>(
     let (facts, mut kernels) = (Facts::of(problem), Kernels::default());
     let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
     let rows = Rows::of(problem, sides, &facts, &mut kernels)?;
-    Ok(connect(problem, objective, objective_groups.into_list(), rows))
+    let mut model = connect(problem, objective, objective_groups.into_list(), rows);
+    let mut start = std::mem::take(&mut model.meta.start);
+    model.complete(&mut start);
+    model.meta.start = start;
+    Ok(model)
 }
 
 fn objective(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
