@@ -31,33 +31,68 @@ pub(in crate::certificate) fn find(
     active: &Active<'_>,
     hessian: &Hessian,
     tolerances: &Tolerances,
+    inwards: &[Vec<f64>],
 ) -> Result<Option<Vec<f64>>, FactorizationError> {
     let choice = Choice::all(point, active);
-    let (free, held) = (choice.loose_variables(), choice.strict_rows());
-    let most = DIRECTIONS.min(WORK / (free.len() + held.len() + 1));
+    let (free, strict) = (choice.loose_variables(), choice.strict_rows());
+    let most = DIRECTIONS.min(WORK / (free.len() + strict.len() + 1));
     if free.is_empty() || most == 0 {
         return Ok(None);
     }
-    let mut kkt = Kkt::new(point, hessian, &free, &held)?;
-    if !kkt.is_flat(FLAT)? {
+    let mut kkt = Kkt::new(point, hessian, &free, &strict)?;
+    let flat = if kkt.is_flat(FLAT)? { kkt.flat_directions(most, FLAT)? } else { Vec::new() };
+    if flat.is_empty() && inwards.is_empty() {
         return Ok(None);
     }
-    let directions = kkt.flat_directions(most, FLAT)?;
-    kkt.factor_proximal()?;
-    let walk = Walk { point, multipliers: active.multipliers, tolerances, free: &free, held: &held, kkt: &kkt };
-    Ok(directions.iter().find_map(|direction| walk.along(direction, 1.0).or_else(|| walk.along(direction, -1.0))))
+    Walk::from(point, active, hessian, tolerances, &choice)?.lower_point(inwards.iter().take(most).chain(&flat))
+}
+
+/// The same along one direction: whether it leads to a lower point indeed.
+pub(in crate::certificate) fn confirm(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    tolerances: &Tolerances,
+    direction: &[f64],
+) -> bool {
+    let size = |(step, size): (&f64, &f64)| (step / size).abs();
+    let largest = direction.iter().zip(&point.sizes).map(size).fold(f64::MIN_POSITIVE, f64::max);
+    let unit: Vec<f64> = direction.iter().map(|step| step / largest).collect();
+    let walk = Walk::from(point, active, hessian, tolerances, &Choice::all(point, active));
+    matches!(walk.and_then(|walk| walk.lower_point(std::iter::once(&unit))), Ok(Some(_)))
 }
 
 struct Walk<'w, 'p> {
     point: &'w Point<'p>,
     multipliers: &'w Multipliers,
     tolerances: &'w Tolerances,
-    free: &'w [usize],
-    held: &'w [usize],
-    kkt: &'w Kkt<'w>,
+    free: Vec<usize>,
+    /// All active rows, and which of them are weakly active: these may be left, and are only gone back to.
+    held: Vec<usize>,
+    may_be_left: Vec<bool>,
+    kkt: Kkt<'w>,
 }
 
-impl Walk<'_, '_> {
+impl<'w, 'p> Walk<'w, 'p> {
+    fn from(
+        point: &'w Point<'p>,
+        active: &Active<'w>,
+        hessian: &Hessian,
+        tolerances: &'w Tolerances,
+        choice: &Choice,
+    ) -> Result<Self, FactorizationError> {
+        let (free, held) = (choice.loose_variables(), choice.held.clone());
+        let may_be_left = held.iter().map(|i| choice.weak_rows.binary_search(i).is_ok()).collect();
+        let mut kkt = Kkt::new(point, hessian, &free, &held)?;
+        kkt.factor_proximal()?;
+        Ok(Walk { point, multipliers: active.multipliers, tolerances, free, held, may_be_left, kkt })
+    }
+
+    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
+        let mut directions = directions;
+        Ok(directions.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
+    }
+
     /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
     fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
         let point = self.point;
@@ -112,7 +147,11 @@ impl Walk<'_, '_> {
         model.jacobian(x, &mut jacobian).ok()?;
         meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
         let slopes = self.free.iter().map(|&j| -total[j] * point.sizes[j] / point.scale());
-        let lack = |(k, &i): (usize, &usize)| (point.row_limit(i, self.multipliers.rows[i]) - rows[i]) / self.kkt.slope(k);
+        let lack = |(k, &i): (usize, &usize)| {
+            let inside = rows[i].max(meta.row_lower[i]).min(meta.row_upper[i]);
+            let to = if self.may_be_left[k] { inside } else { point.row_limit(i, self.multipliers.rows[i]) };
+            (to - rows[i]) / self.kkt.slope(k)
+        };
         let lacks = self.held.iter().enumerate().map(lack);
         Some(slopes.chain(lacks).collect())
     }
