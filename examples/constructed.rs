@@ -11,7 +11,9 @@ use std::time::Instant;
 #[path = "../tests/support/constructed/mod.rs"]
 mod constructed;
 
-use constructed::{Fault, Tally, construct};
+use constructed::{Constructed, Fault, Tally, construct};
+use ribopt::certificate::{Certifier, Tolerances};
+use ribopt::model::Class;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (mut seed, mut count, mut near, mut out) = (1u64, 1000u64, 3usize, None::<PathBuf>);
@@ -41,6 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     tally.faults.sort_by_key(|fault| (fault.0, fault.1, fault.2));
     for (fault, seed, at, nature) in &tally.faults {
         println!("{fault:?}: seed {seed}, point {at}, {nature:?}");
+        explain(&construct(*seed, near), *at)?;
         if let Some(folder) = &out {
             let all = construct(*seed, near);
             fs::create_dir_all(folder)?;
@@ -48,5 +51,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::write(folder.join(format!("{seed}-{at}.toml")), all.problem.toml(&all.points[*at], &remark))?;
         }
     }
+    Ok(())
+}
+
+/// What the certificate says of a point.
+fn explain(all: &Constructed, at: usize) -> Result<(), Box<dyn Error>> {
+    let found = Certifier::new(&all.problem, Class::Nonlinear, Tolerances::default()).certify(&all.points[at], None)?;
+    let (primal, dual, gap) = (found.primal_infeasibility, found.dual_infeasibility, found.complementarity);
+    println!("  primal {primal:.1e}, dual {dual:.1e}, complementarity {gap:.1e}, flat {}", found.minimiser_may_not_be_unique);
+    found.messages.iter().for_each(|text| println!("  {text}"));
     Ok(())
 }

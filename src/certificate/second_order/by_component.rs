@@ -41,7 +41,7 @@ pub(super) fn judge(
         choose(&mut piece.choice, point, active, hessian, (partition, k));
         piece.examine(point, active, hessian, cone).map(|found| (k, found))
     };
-    let is_noted = |found: &Result<(usize, Found), _>| found.as_ref().map_or(true, |(_, found)| *found != Found::default());
+    let is_noted = |found: &Result<(usize, Found), _>| found.as_ref().map_or(true, |(_, found)| found.is_worth_noting());
     let noted: Result<Vec<(usize, Found)>, FactorizationError> =
         (0..partition.len()).into_par_iter().with_min_len(BATCH).map_init(Piece::default, examine).filter(is_noted).collect();
     let mut curvature = Curvature::default();
@@ -68,13 +68,18 @@ fn choose(choice: &mut Choice, point: &Point<'_>, active: &Active<'_>, hessian: 
 }
 
 /// What one piece's matrices say.
-#[derive(Default, PartialEq)]
 struct Found {
     dependent: bool,
     singular: bool,
     /// Where all active limits hold.
     bends_down: bool,
     on_cone: OnCone,
+}
+
+impl Found {
+    fn is_worth_noting(&self) -> bool {
+        self.dependent || self.singular || self.bends_down || self.on_cone != OnCone::PROVED
+    }
 }
 
 /// A thread's room.
@@ -102,7 +107,7 @@ impl Piece {
             Some(build) if !bends_down && !self.bends_up_without_weak_limits(point, hessian) => {
                 weak_limits::judge(point, active, hessian, &self.choice, build)?
             }
-            _ => OnCone::Proved,
+            _ => OnCone::PROVED,
         };
         Ok(Found { dependent, singular, bends_down, on_cone })
     }

@@ -22,17 +22,20 @@ const LOW_FACES: usize = 12;
 const FLAT: f64 = 1e-2;
 
 /// What the critical cone says.
-#[derive(Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq)]
 pub(super) enum OnCone {
-    /// Bends up along every direction, beyond rounding.
-    #[default]
-    Proved,
-    /// Bends down along none; these directions, which leave weakly active limits, hardly bend up.
-    Flat(Vec<Vec<f64>>),
+    /// Bends down along no direction, and up along every one beyond rounding if it is strict. These directions, which leave weakly
+    /// active limits, hardly bend up.
+    Holds { is_strict: bool, flat: Vec<Vec<f64>> },
     /// Bends down along this direction of the cone, in the user's variables.
     Falls(Vec<f64>),
     /// Neither is shown at so many weakly active limits.
     Undecided(usize),
+}
+
+impl OnCone {
+    /// Nothing to be said of the cone.
+    pub(super) const PROVED: OnCone = OnCone::Holds { is_strict: true, flat: Vec::new() };
 }
 
 /// Judges the cone of the weakly active limits and, where that makes a difference this near, of those that nearly are.
@@ -51,7 +54,7 @@ pub(super) fn judge(
             proved => return Ok(proved),
         }
     }
-    if choice.weak() == 0 { Ok(OnCone::Proved) } else { examine(point, active, hessian, choice, build) }
+    if choice.weak() == 0 { Ok(OnCone::PROVED) } else { examine(point, active, hessian, choice, build) }
 }
 
 /// Whether the objective falls below the point's within a very small step.
@@ -72,10 +75,10 @@ fn examine(
     let k = choice.weak();
     let mut cone = Cone::new(point, active, hessian, choice, build)?;
     if cone.bends_up_without_weak_limits(-ROUNDING)? {
-        return Ok(OnCone::Proved);
+        return Ok(OnCone::PROVED);
     }
     if cone.bends_up_without_weak_limits(ROUNDING)? {
-        return Ok(OnCone::Flat(Vec::new()));
+        return Ok(OnCone::Holds { is_strict: false, flat: Vec::new() });
     }
     if k > MOST || k * cone.order() > WORK || !cone.bends_up_on_subspace(ROUNDING)? {
         return Ok(OnCone::Undecided(k));
@@ -89,10 +92,9 @@ fn examine(
         }
         Verdict::Copositive => {
             let flat = flat_directions(point, hessian, &cone, &reduced, k)?;
-            let is_strict = flat.is_empty()
-                && cone.bends_up_on_subspace(-ROUNDING)?
-                && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
-            Ok(if is_strict { OnCone::Proved } else { OnCone::Flat(flat) })
+            let is_strict =
+                cone.bends_up_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
+            Ok(OnCone::Holds { is_strict, flat })
         }
     }
 }

@@ -30,10 +30,9 @@ impl Curvature {
 
     pub(super) fn add(&mut self, on_cone: OnCone) {
         match on_cone {
-            OnCone::Proved => {}
-            OnCone::Flat(directions) => {
-                self.singular = true;
-                self.flat.extend(directions);
+            OnCone::Holds { is_strict, flat } => {
+                self.singular |= !is_strict;
+                self.flat.extend(flat);
             }
             OnCone::Falls(direction) => {
                 self.singular = true;

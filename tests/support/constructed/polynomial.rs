@@ -43,7 +43,7 @@ impl Polynomial {
     }
 
     /// The derivative by w.
-    fn gradient(&self, w: &[f64]) -> Vec<f64> {
+    pub fn gradient(&self, w: &[f64]) -> Vec<f64> {
         let mut total = self.linear.clone();
         for power in &self.powers {
             let slope = power.factor * f64::from(power.exponent) * dot(&power.direction, w).powi(power.exponent - 1);

@@ -58,10 +58,24 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
     inactive_rows(random, &mut problem);
     powers.extend(quadratic(&k, &coordinates));
     powers.extend(compensated);
+    problem.objective.push(Polynomial { scale: 1.0, linear: objective, powers, constant: 0.0 });
     if let Some(at) = flat {
-        powers.push(beyond_second_order(random, nature, &coordinates[at], at < counts.first_free()));
+        let unit = visible(&problem, &coordinates, at);
+        let power = beyond_second_order(random, nature, (&coordinates[at], unit), at < counts.first_free());
+        let change = power.factor.abs() * unit.1.powi(power.exponent);
+        problem.objective[0].powers.push(power);
+        // The objective's scale is also that of its start: nearer starts until the power does not drown in it.
+        for _ in 0..20 {
+            if change > 1e-2 * visible(&problem, &coordinates, at).0 {
+                break;
+            }
+            for j in (0..counts.total()).filter(|&j| problem.centre[j] != 0.0) {
+                let here = problem.centre[j] * problem.sizes[j];
+                problem.meta.start[j] = here + 0.5 * (problem.meta.start[j] - here);
+            }
+        }
     }
-    problem.objective.push(Polynomial { scale, linear: objective, powers, constant: 0.0 });
+    problem.objective[0].scale = scale;
     let problem = problem.finish();
     let mut points = vec![problem.place(&vec![0.0; counts.total()])];
     for _ in 0..near {
@@ -76,11 +90,8 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
 
 fn counts(random: &mut Random, nature: Nature) -> Counts {
     let most = if random.chance(0.1) { 30 } else { 10 };
-    let mut counts = Counts {
-        strict: random.below(most / 3 + 1),
-        weak: random.below(if random.chance(0.05) { 11 } else { 5 }),
-        free: random.below(most / 3 + 1),
-    };
+    let weak = if random.chance(0.05) { 11 } else { 5 };
+    let mut counts = Counts { strict: random.below(most / 3 + 1), weak: random.below(weak), free: random.below(most / 3 + 1) };
     match nature {
         Nature::FallsOnFace(face) => counts.weak = counts.weak.max(face),
         Nature::Saddle => counts.free = counts.free.max(1),
@@ -110,8 +121,10 @@ fn curvature(random: &mut Random, nature: Nature, counts: Counts, flat: Option<u
     let zz = definite(random, free, nature);
     let m = on_weak_limits(random, weak, nature);
     let coupling = DMatrix::from_fn(weak, free, |_, _| random.symmetric());
-    let solved = zz.clone().lu().solve(&coupling.transpose()).expect("free coordinates bend");
-    let ss = m + &coupling * solved;
+    let ss = match free {
+        0 => m,
+        _ => m + &coupling * zz.clone().lu().solve(&coupling.transpose()).expect("free coordinates bend"),
+    };
     k.view_mut((first, first), (weak, weak)).copy_from(&ss);
     k.view_mut((first, first + weak), (weak, free)).copy_from(&coupling);
     k.view_mut((first + weak, first), (free, weak)).copy_from(&coupling.transpose());
@@ -302,14 +315,36 @@ fn quadratic(k: &DMatrix<f64>, coordinates: &[Vec<f64>]) -> Vec<Power> {
     powers
 }
 
-fn beyond_second_order(random: &mut Random, nature: Nature, coordinate: &[f64], is_one_sided: bool) -> Power {
-    let size = random.decade(-0.5, 0.5);
-    let (factor, exponent) = match (nature, is_one_sided) {
-        (Nature::DegenerateMinimum, true) => (size, 3 + random.below(2) as i32),
-        (Nature::DegenerateMinimum, false) => (size, 4),
-        (_, true) => (-size, 3 + random.below(2) as i32),
-        (_, false) if random.chance(0.5) => (random.sign() * size, 3),
-        (_, false) => (-size, 4),
+/// The objective's scale, and how far coordinate `at` moves as the first variable moves by its own size: a power of the coordinate
+/// must be seen within that, or it is rounding.
+fn visible(problem: &Problem, coordinates: &[Vec<f64>], at: usize) -> (f64, f64) {
+    let n = coordinates.len();
+    let start = problem.deviation(&problem.meta.start);
+    let size = |j: usize| problem.centre[j].abs().max((start[j] + problem.centre[j]).abs());
+    let slope = |w: &[f64]| {
+        problem.objective[0].gradient(w).iter().enumerate().fold(0.0, |most: f64, (j, g)| most.max((g * size(j)).abs()))
     };
-    Power { factor, direction: coordinate.to_vec(), exponent }
+    let scale = slope(&vec![0.0; n]).max(slope(&start));
+    let turned = DMatrix::from_fn(n, n, |i, j| coordinates[i][j]);
+    let unit = nalgebra::DVector::from_fn(n, |i, _| if i == at { 1.0 } else { 0.0 });
+    let along = turned.lu().solve(&unit).expect("coordinates are independent");
+    let fastest = (0..n).fold(0.0, |most: f64, j| most.max((along[j] / size(j)).abs()));
+    (if scale > 0.0 { scale } else { 1.0 }, 1.0 / fastest)
+}
+
+fn beyond_second_order(
+    random: &mut Random,
+    nature: Nature,
+    (coordinate, (scale, reach)): (&[f64], (f64, f64)),
+    is_one_sided: bool,
+) -> Power {
+    let share = random.decade(-1.5, 0.0);
+    let (sign, exponent) = match (nature, is_one_sided) {
+        (Nature::DegenerateMinimum, true) => (1.0, 3 + random.below(2) as i32),
+        (Nature::DegenerateMinimum, false) => (1.0, 4),
+        (_, true) => (-1.0, 3 + random.below(2) as i32),
+        (_, false) if random.chance(0.5) => (random.sign(), 3),
+        (_, false) => (-1.0, 4),
+    };
+    Power { factor: sign * share * scale / reach.powi(exponent), direction: coordinate.to_vec(), exponent }
 }

@@ -23,7 +23,8 @@ fn vector(random: &mut Random, n: usize) -> Vec<f64> {
 /// Rows a_i·w ≥ b_i with Σ y_i a_i = 0, y > 0, and Σ y_i b_i = gap·Σ y_i (|limit| + Σ|a_ij|·|x_j/s_j|) (Farkas): no point meets them.
 /// Points: where violations are balanced, the start, and far away.
 pub fn infeasible(random: &mut Random, gap: f64) -> (Problem, Vec<Vec<f64>>) {
-    let n = 1 + random.below(if random.chance(0.1) { 30 } else { 8 });
+    let most = if random.chance(0.1) { 30 } else { 8 };
+    let n = 1 + random.below(most);
     let mut problem = empty(random, n);
     let count = 2 + random.below(4);
     let mut rows: Vec<Vec<f64>> = (1..count).map(|_| vector(random, n)).collect();
