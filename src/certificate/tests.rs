@@ -256,12 +256,12 @@ fn corners_that_only_several_weak_limits_together_leave_do_not_pass() {
             let point = judge(&tied(count, 1.05 * edge, by_rows), &origin);
             assert!(!point.certified && point.negative_curvature);
             let escape = point.escape.unwrap();
-            assert!(escape.iter().all(|v| *v > 0.99 * escape[0]), "{escape:?}");
+            assert!(escape.iter().all(|v| *v > 0.8 * escape[0]), "{escape:?}");
             assert!(judge(&tied(count, 0.95 * edge, by_rows), &origin).certified);
         }
     }
     let point = judge(&tied(2, 3.0, false), &[0.0, 0.0]);
-    assert!(point.messages.iter().any(|text| text.contains("x[1] +0.71, x[2] +0.71")), "{:?}", point.messages);
+    assert!(point.messages.iter().any(|text| text.contains("x[1] +0.71") && text.contains("x[2] +0.71")), "{:?}", point.messages);
 }
 
 #[test]
@@ -308,12 +308,18 @@ fn flat_faces_are_left_inwards() {
 
 #[test]
 fn too_many_weak_limits_to_look_at_are_no_proof() {
-    // Horn's form on 40 variables: copositive, but nothing short of very many faces shows it.
+    // Motzkin and Straus 1965: τ(Σx)² less the edges of a graph is copositive from τ = 1 − 1/ω on; eight pentagons, all joined,
+    // hold ω = 16 but far too many faces.
     let count = 40;
     let horn = Sample::new(&vec![1.0; count], move |x| {
-        let sum = x.iter().fold(Value::from(0.0), |sum, x| sum + x);
-        let neighbours = (0..count).fold(Value::from(0.0), |sum, i| sum + x[i] * x[(i + 1) % count]);
-        sum * sum * 0.26 - neighbours + x.iter().fold(Value::from(0.0), |sum, x| sum + x * x) * 0.001
+        let sum = |range: std::ops::Range<usize>| range.fold(Value::from(0.0), |sum, i| sum + x[i]);
+        let mut total = sum(0..count) * sum(0..count) * (15.0 / 16.0 + 0.001 - 1.0);
+        for group in 0..count / 5 {
+            let first = 5 * group;
+            total += sum(first..first + 5) * sum(first..first + 5);
+            (0..5).for_each(|i| total -= x[first + i] * x[first + (i + 1) % 5] * 2.0);
+        }
+        total
     });
     let horn = (0..count).fold(horn, |model, i| model.bound(i, 0.0, INF));
     let point = judge(&horn, &vec![0.0; count]);

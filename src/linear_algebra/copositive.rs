@@ -3,7 +3,7 @@
 //! Theorem (W. Kaplan, "A test for copositive matrices", Linear Algebra and its Applications 313, 2000): M is copositive exactly
 //! where no principal submatrix has an eigenvector with positive entries to a negative eigenvalue. Such a vector of a least
 //! support minimises sᵀMs over the unit vectors of its face, so it belongs to the submatrix's *lowest* eigenvalue; and where
-//! that is not negative, no submatrix of it need be looked at. Indices that no negative entry ties together are tested apart,
+//! that is not negative, also where it is not without positive entries off the diagonal, no submatrix of it need be looked at. Indices that no negative entry ties together are tested apart,
 //! which is exact: what stands between them only adds.
 //!
 //! The work doubles with every index in the worst case: faces are counted, and `Undecided` is an answer.
@@ -21,7 +21,7 @@ const ZERO: f64 = 1e-9;
 /// Supports are sets of at most this many indices.
 const WIDEST: usize = 64;
 /// Sweeps of the search for a vector that shows M is not copositive.
-const SWEEPS: usize = 30;
+const SWEEPS: usize = 50;
 
 /// What is known of M.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,9 +42,12 @@ pub enum Verdict {
 /// assert!(matches!(test(&[1.0, -1.5, -1.5, 1.0], 2, 100), Verdict::Falls(_)));
 /// ```
 pub fn test(matrix: &[f64], k: usize, faces: usize) -> Verdict {
+    if k == 0 {
+        return Verdict::Copositive;
+    }
     let scaled = Scaled::new(matrix, k);
     if let Some(s) = scaled.descended() {
-        return Verdict::Falls(scaled.unscaled(&s));
+        return Verdict::Falls(scaled.unscaled(&scaled.lowered(s)));
     }
     let mut found = None;
     let is_complete = scaled.search(-TOLERANCE * k as f64, faces, |s| {
@@ -131,6 +134,18 @@ impl Scaled {
         })
     }
 
+    /// A vector of lower value for its length, by steps against the slope.
+    fn lowered(&self, mut s: Vec<f64>) -> Vec<f64> {
+        let row = |i: usize| self.entries.row(i).iter().map(|m| m.abs()).sum::<f64>();
+        let longest = (0..self.k).map(row).fold(f64::MIN_POSITIVE, f64::max);
+        for _ in 0..SWEEPS {
+            let next: Vec<f64> = (0..self.k).map(|i| (s[i] - self.slope(&s, i) / longest).max(0.0)).collect();
+            let length = next.iter().map(|s| s * s).sum::<f64>().sqrt();
+            s = next.into_iter().map(|s| s / length).collect();
+        }
+        s
+    }
+
     /// Visits the lowest eigenvectors without negative entries of the submatrices whose lowest eigenvalue is below `threshold`,
     /// until `visit` has seen enough. False where not all could be looked at.
     fn search(&self, threshold: f64, faces: usize, mut visit: impl FnMut(&[f64]) -> bool) -> bool {
@@ -144,8 +159,11 @@ impl Scaled {
             if !seen.insert(support.clone()) {
                 continue;
             }
-            let Some((lowest, vector)) = self.lowest(&support) else { continue };
-            if lowest >= threshold {
+            let Some((lowest, vector)) = self.lowest(&support, |entry| entry) else { return false };
+            // Without its positive entries off the diagonal M is less; where it is definite even so, no part of it falls.
+            let bounded = |off: f64| off.min(0.0);
+            let is_bounded = || threshold < 0.0 && self.lowest(&support, bounded).is_some_and(|(least, _)| least >= threshold);
+            if lowest >= threshold || is_bounded() {
                 continue;
             }
             if left == 0 || support.len() > WIDEST {
@@ -188,12 +206,15 @@ impl Scaled {
         parts
     }
 
-    /// The lowest eigenvalue over a support and its vector.
-    fn lowest(&self, support: &[usize]) -> Option<(f64, Vec<f64>)> {
+    /// The lowest eigenvalue over a support and its vector, the entries off the diagonal being changed.
+    fn lowest(&self, support: &[usize], off: impl Fn(f64) -> f64) -> Option<(f64, Vec<f64>)> {
         if let [only] = support {
             return Some((self.entries[(*only, *only)], vec![1.0]));
         }
-        let part = DMatrix::from_fn(support.len(), support.len(), |i, j| self.entries[(support[i], support[j])]);
+        let entry = |i: usize, j: usize| {
+            if i == j { self.entries[(support[i], support[i])] } else { off(self.entries[(support[i], support[j])]) }
+        };
+        let part = DMatrix::from_fn(support.len(), support.len(), entry);
         let eigen = SymmetricEigen::try_new(part, f64::EPSILON, 1000)?;
         let (at, lowest) = eigen.eigenvalues.argmin();
         Some((lowest, eigen.eigenvectors.column(at).iter().copied().collect()))

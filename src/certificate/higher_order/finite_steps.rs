@@ -25,6 +25,8 @@ const WORK: usize = 20_000;
 /// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
 /// off than κ·step = NEAR·optimality is another valley's.
 const NEAR: f64 = 20.0;
+/// Limits nearer than this are left or kept by a step, and corrections do not run against them.
+const BESIDE: f64 = 1e-3;
 /// Rounding of the objective and of rows on their limits, in units of σ.
 const NOISE: f64 = 1e-10;
 /// `escape` is stretched by this: second tries start at a tenth of it.
@@ -39,7 +41,7 @@ pub(in crate::certificate) fn find(
     tolerances: &Tolerances,
     inwards: &[Vec<f64>],
 ) -> Result<Option<Vec<f64>>, FactorizationError> {
-    let choice = Choice::all(point, active);
+    let choice = Choice::relaxed_all(point, active, hessian);
     let (free, strict) = (choice.loose_variables(), choice.strict_rows());
     let most = DIRECTIONS.min(WORK / (free.len() + strict.len() + 1));
     if free.is_empty() || most == 0 {
@@ -64,7 +66,7 @@ pub(in crate::certificate) fn confirm(
     let size = |(step, size): (&f64, &f64)| (step / size).abs();
     let largest = direction.iter().zip(&point.sizes).map(size).fold(f64::MIN_POSITIVE, f64::max);
     let unit: Vec<f64> = direction.iter().map(|step| step / largest).collect();
-    let walk = Walk::from(point, active, hessian, tolerances, &Choice::all(point, active));
+    let walk = Walk::from(point, active, hessian, tolerances, &Choice::relaxed_all(point, active, hessian));
     matches!(walk.and_then(|walk| walk.lower_point(std::iter::once(&unit))), Ok(Some(_)))
 }
 
@@ -73,8 +75,10 @@ struct Walk<'w, 'p> {
     multipliers: &'w Multipliers,
     hessian: &'w Hessian,
     tolerances: &'w Tolerances,
+    /// Free variables; with those on weakly active bounds, which corrections leave where a step has put them.
     free: Vec<usize>,
-    /// All active rows, and which of them are weakly active: these may be left, and are only gone back to.
+    loose: Vec<usize>,
+    /// Rows near a limit, and which of them are not strictly active: these may be left, and are only gone back to.
     held: Vec<usize>,
     may_be_left: Vec<bool>,
     kkt: Kkt<'w>,
@@ -92,14 +96,31 @@ impl<'w, 'p> Walk<'w, 'p> {
         tolerances: &'w Tolerances,
         choice: &Choice,
     ) -> Result<Self, FactorizationError> {
-        let (free, held) = (choice.loose_variables(), choice.held.clone());
-        let may_be_left = held.iter().map(|i| choice.weak_rows.binary_search(i).is_ok()).collect();
+        let (meta, strict) = (point.meta(), choice.strict_rows());
+        let is_apart = |&j: &usize| (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]) > BESIDE * point.sizes[j];
+        let free: Vec<usize> = choice.free.iter().copied().filter(is_apart).collect();
+        let distance = |i: usize| (point.rows[i] - meta.row_lower[i]).min(meta.row_upper[i] - point.rows[i]);
+        let is_near = |&i: &usize| point.slopes[i] > 0.0 && distance(i) <= BESIDE * point.slopes[i];
+        let held: Vec<usize> = (0..meta.rows()).filter(is_near).collect();
+        let may_be_left = held.iter().map(|i| strict.binary_search(i).is_err()).collect();
         let mut kkt = Kkt::new(point, hessian, &free, &held)?;
         kkt.factor_proximal()?;
         let multipliers = active.multipliers;
         let here = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
         let slopes = point.row_gradient(&multipliers.rows);
-        Ok(Walk { point, multipliers, hessian, tolerances, free, held, may_be_left, kkt, here, slopes })
+        Ok(Walk {
+            point,
+            multipliers,
+            hessian,
+            tolerances,
+            free,
+            loose: choice.loose_variables(),
+            held,
+            may_be_left,
+            kkt,
+            here,
+            slopes,
+        })
     }
 
     fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
@@ -132,7 +153,7 @@ impl<'w, 'p> Walk<'w, 'p> {
     /// What the point's own slope may make of the way to x (of a convex function no fall is deeper), and rounding.
     fn explained(&self, x: &[f64]) -> f64 {
         let slope = |&j: &usize| (self.slopes[j] * (x[j] - self.point.x[j])).abs();
-        2.0 * self.free.iter().map(slope).sum::<f64>() + NOISE * self.point.scale()
+        2.0 * self.loose.iter().map(slope).sum::<f64>() + NOISE * self.point.scale()
     }
 
     /// Keeps x no farther away than twice the step, relative to the variables' sizes: what is farther is another valley's.

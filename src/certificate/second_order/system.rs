@@ -19,9 +19,9 @@ pub(in crate::certificate) struct Active<'a> {
 
 /// A limit whose scaled multiplier |y_i|·slope_i/σ is at most this is weakly active: as much is accepted of ∂L/∂x_j as a residual.
 const WEAK: f64 = 1e-6;
-/// At most this, and at most NEARLY_FLAT times the curvature there: nearly weakly active. What a residual of 1e−6 makes of a
-/// multiplier at a condition of 100.
-const NEARLY_WEAK: f64 = 1e-4;
+/// At most this, and at most NEARLY_FLAT times the curvature there: nearly weakly active. Where the Lagrangian bends by a hundredth
+/// of the curvature about a limit, a slope of 1e−6 makes up to 1e−4 of a multiplier, in a chain of two 1e−3.
+const NEARLY_WEAK: f64 = 1e-3;
 const NEARLY_FLAT: f64 = 1e-2;
 
 /// Which variables and rows are looked at; all lists ascend.
@@ -45,6 +45,12 @@ impl Choice {
         let mut choice = Choice::default();
         choice.choose(point, active, None, (0..active.bounds.len(), 0..active.rows.len()));
         choice
+    }
+
+    /// The same, with nearly weakly active limits among the weakly active ones.
+    pub(in crate::certificate) fn relaxed_all(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Choice {
+        let choice = Choice::noting_nearly_weak(point, active, hessian);
+        choice.relaxed().unwrap_or(choice)
     }
 
     /// The same, with nearly weakly active limits noted.

@@ -6,15 +6,16 @@ use crate::certificate::point::Point;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::copositive::{self, Verdict};
 
-/// Faces of the cone looked at: all of twelve weakly active limits that are all tied to one another.
-const FACES: usize = 4096;
+/// Faces of the cone looked at: all of thirteen weakly active limits that are all tied to one another.
+const FACES: usize = 8192;
 /// Solutions, one per weakly active limit, times the order of the matrix.
 const WORK: usize = 20_000_000;
 /// Weakly active limits at the most: M is dense.
 const MOST: usize = 512;
 /// A point that is a minimum only within this share of the variables' sizes, because nearly weakly active limits push, is none:
-/// 2·∇f·v/|vᵀ∇²L v| ≤ NEAREST.
-const NEAREST: f64 = 1e-4;
+/// 2·∇f·v/|vᵀ∇²L v| ≤ NEAREST. Where the Lagrangian bends by FLAT the accepted slope of 1e−6 leaves the point 1e−4 away, and a
+/// multiplier 1e−4·|S| from its value.
+const NEAREST: f64 = 1e-3;
 /// Faces whose curvature is less than this share of that of their edges are looked at beyond second order, so many of them.
 const LOW: f64 = 1e-3;
 const LOW_FACES: usize = 12;

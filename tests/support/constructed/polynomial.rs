@@ -19,6 +19,8 @@ pub struct Polynomial {
     pub linear: Vec<f64>,
     pub powers: Vec<Power>,
     pub constant: f64,
+    /// The sum of all squares among the powers as a matrix, once [`Problem::finish`] has made it; before that, empty.
+    pub squares: Vec<f64>,
 }
 
 /// Minimise a polynomial within bounds and rows of polynomials.
@@ -37,15 +39,42 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl Polynomial {
+    pub fn new(scale: f64, linear: Vec<f64>, powers: Vec<Power>, constant: f64) -> Polynomial {
+        Polynomial { scale, linear, powers, constant, squares: Vec::new() }
+    }
+
+    /// The powers not in the matrix.
+    fn others(&self) -> impl Iterator<Item = &Power> {
+        self.powers.iter().filter(|power| self.squares.is_empty() || power.exponent != 2)
+    }
+
+    fn merge_squares(&mut self) {
+        let n = self.linear.len();
+        let mut squares = vec![0.0; n * n];
+        for power in self.powers.iter().filter(|power| power.exponent == 2) {
+            for (i, a) in power.direction.iter().enumerate() {
+                squares[i * n..(i + 1) * n].iter_mut().zip(&power.direction).for_each(|(to, b)| *to += power.factor * a * b);
+            }
+        }
+        self.squares = squares;
+    }
+
+    /// Half the derivative of the squares.
+    fn half_slopes(&self, w: &[f64]) -> Vec<f64> {
+        self.squares.chunks_exact(w.len().max(1)).map(|row| dot(row, w)).collect()
+    }
+
     pub fn value(&self, w: &[f64]) -> f64 {
         let power = |power: &Power| power.factor * dot(&power.direction, w).powi(power.exponent);
-        self.scale * (dot(&self.linear, w) + self.powers.iter().map(power).sum::<f64>()) + self.constant
+        let squares = dot(&self.half_slopes(w), w);
+        self.scale * (dot(&self.linear, w) + squares + self.others().map(power).sum::<f64>()) + self.constant
     }
 
     /// The derivative by w.
     pub fn gradient(&self, w: &[f64]) -> Vec<f64> {
         let mut total = self.linear.clone();
-        for power in &self.powers {
+        total.iter_mut().zip(self.half_slopes(w)).for_each(|(total, half)| *total += 2.0 * half);
+        for power in self.others() {
             let slope = power.factor * f64::from(power.exponent) * dot(&power.direction, w).powi(power.exponent - 1);
             total.iter_mut().zip(&power.direction).for_each(|(total, d)| *total += slope * d);
         }
@@ -56,7 +85,8 @@ impl Polynomial {
     /// Adds weight times the second derivatives by w, full and row by row.
     fn add_hessian(&self, w: &[f64], weight: f64, total: &mut [f64]) {
         let n = w.len();
-        for power in &self.powers {
+        total.iter_mut().zip(&self.squares).for_each(|(to, square)| *to += 2.0 * weight * self.scale * square);
+        for power in self.others() {
             let p = power.exponent;
             let bend = self.scale * power.factor * f64::from(p * (p - 1)) * dot(&power.direction, w).powi(p - 2);
             for (i, a) in power.direction.iter().enumerate().filter(|(_, a)| **a != 0.0) {
@@ -90,8 +120,9 @@ impl Problem {
         w.iter().zip(&self.sizes).zip(&self.centre).map(|((w, s), c)| (w + c) * s).collect()
     }
 
-    /// Sets the patterns from what the polynomials contain.
+    /// Merges squares and sets the patterns from what the polynomials contain.
     pub fn finish(mut self) -> Problem {
+        self.objective.iter_mut().chain(&mut self.rows).for_each(Polynomial::merge_squares);
         let n = self.sizes.len();
         let used = |polynomial: &Polynomial, j: usize| {
             polynomial.linear[j] != 0.0 || polynomial.powers.iter().any(|power| power.direction[j] != 0.0)

@@ -58,7 +58,7 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
     inactive_rows(random, &mut problem);
     powers.extend(quadratic(&k, &coordinates));
     powers.extend(compensated);
-    problem.objective.push(Polynomial { scale: 1.0, linear: objective, powers, constant: 0.0 });
+    problem.objective.push(Polynomial::new(1.0, objective, powers, 0.0));
     if let Some(at) = flat {
         let unit = visible(&problem, &coordinates, at);
         let power = beyond_second_order(random, nature, (&coordinates[at], unit), at < counts.first_free());
@@ -79,7 +79,7 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
     let problem = problem.finish();
     let mut points = vec![problem.place(&vec![0.0; counts.total()])];
     for _ in 0..near {
-        let distance = random.decade(-13.0, -4.0);
+        let distance = random.decade(-13.0, -5.0);
         let w: Vec<f64> = (0..counts.total()).map(|_| distance * random.symmetric()).collect();
         let mut x = problem.place(&w);
         problem.meta.clamp(&mut x);
@@ -256,7 +256,7 @@ fn bound(problem: &mut Problem, j: usize, is_lower: bool, is_equality: bool) {
 fn row(random: &mut Random, problem: &mut Problem, linear: &[f64], powers: Vec<Power>, is_equality: bool) {
     let scale = random.decade(-3.0, 3.0) * random.sign();
     let constant = if random.chance(0.5) { scale * random.symmetric() } else { 0.0 };
-    problem.rows.push(Polynomial { scale, linear: linear.to_vec(), powers, constant });
+    problem.rows.push(Polynomial::new(scale, linear.to_vec(), powers, constant));
     let (is_lower, meta) = (scale > 0.0, &mut problem.meta);
     meta.row_lower.push(if is_lower || is_equality { constant } else { f64::NEG_INFINITY });
     meta.row_upper.push(if !is_lower || is_equality { constant } else { f64::INFINITY });

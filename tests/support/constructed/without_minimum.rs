@@ -39,7 +39,7 @@ pub fn infeasible(random: &mut Random, gap: f64) -> (Problem, Vec<Vec<f64>>) {
     let share = gap * total / y.iter().sum::<f64>();
     for row in &rows {
         let scale = random.decade(-3.0, 3.0) * random.sign();
-        problem.rows.push(Polynomial { scale, linear: row.clone(), powers: Vec::new(), constant: 0.0 });
+        problem.rows.push(Polynomial::new(scale, row.clone(), Vec::new(), 0.0));
         let limit = scale * share;
         problem.meta.row_lower.push(if scale > 0.0 { limit } else { f64::NEG_INFINITY });
         problem.meta.row_upper.push(if scale > 0.0 { f64::INFINITY } else { limit });
@@ -56,7 +56,7 @@ pub fn infeasible(random: &mut Random, gap: f64) -> (Problem, Vec<Vec<f64>>) {
 fn objective(random: &mut Random, n: usize) -> Polynomial {
     let powers = (0..n).map(|_| Power { factor: random.between(0.1, 1.0), direction: vector(random, n), exponent: 2 }).collect();
     let linear = if random.chance(0.5) { vec![0.0; n] } else { vector(random, n) };
-    Polynomial { scale: random.decade(-3.0, 3.0), linear, powers, constant: 0.0 }
+    Polynomial::new(random.decade(-3.0, 3.0), linear, powers, 0.0)
 }
 
 /// −(d·w)^p and convex terms across it: falls along d for ever, or along a parabola. Points along the way.
@@ -76,13 +76,13 @@ pub fn unbounded(random: &mut Random) -> (Problem, Vec<Vec<f64>>) {
     // A row that bends with the way: t_1 ≥ t_0²/10 is left open upwards.
     if random.chance(0.5) {
         let bend = Power { factor: -0.01, direction: unit(0), exponent: 2 };
-        problem.rows.push(Polynomial { scale: 1.0, linear: unit(1), powers: vec![bend], constant: 0.0 });
+        problem.rows.push(Polynomial::new(1.0, unit(1), vec![bend], 0.0));
         problem.meta.row_lower.push(-1.0);
         problem.meta.row_upper.push(f64::INFINITY);
         // What is gained must outweigh the way along the row: a cubic against a fourth power would not.
         powers.retain(|power| power.direction[1] == 0.0);
     }
-    problem.objective.push(Polynomial { scale, linear, powers, constant: 0.0 });
+    problem.objective.push(Polynomial::new(scale, linear, powers, 0.0));
     let problem = problem.finish();
     let mut points = Vec::new();
     for far in [0.0, 1.0, 1e2, 1e4] {
