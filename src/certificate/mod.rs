@@ -7,6 +7,7 @@ mod bordered;
 mod candidates;
 mod curvature;
 mod descent;
+mod farkas;
 mod implied_box;
 mod kkt;
 mod least_squares;
@@ -18,6 +19,7 @@ mod normal_equations;
 mod outward;
 mod pieces;
 mod point;
+mod propagation;
 mod reach;
 mod runaway;
 mod small_kkt;
@@ -32,7 +34,9 @@ use multipliers::Multipliers;
 use point::{Origin, Point};
 
 use crate::model::{Class, EvaluationError, Model};
+pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
+pub use propagation::impossible_row;
 pub use types::{Certificate, Scope, Side, Tolerances};
 
 /// Certifies `x`. `guess`, a solver's row multipliers, is a first guess and never evidence.

@@ -3,7 +3,7 @@
 use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
-use crate::crosscheck::{Agreement, Answer, Conflict, Status};
+use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
 use crate::model::sample::Sample;
 
 fn model() -> Sample {
@@ -53,7 +53,16 @@ fn outcome() -> Outcome {
         invalid: None,
     };
     let answer =
-        Answer { backend: "argmin", solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
+        Answer {
+            backend: "argmin",
+            solution,
+            objective: Some(1.9),
+            certificate: Some(certificate()),
+            feasible: true,
+            attempt: 1,
+            gave_way: false,
+            remarks: Vec::new(),
+        };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,
@@ -130,7 +139,7 @@ fn the_summary_of_an_infeasible_problem_names_the_conflict() {
         violated_rows: vec![(0, 0.25)],
         rows: vec![0],
         bounds: vec![(1, true)],
-        relaxations: vec![(0, -0.25)],
+        alternatives: vec![LimitMove { limit: Limit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
         minimal: true,
     };
     let infeasible = Outcome {

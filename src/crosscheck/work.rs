@@ -1,0 +1,77 @@
+//! Shares of work. What a run may cost is counted in evaluations times what one costs the backend, never in seconds: a slow
+//! machine gives the same answer. Deadlines are far behind, for backends whose cost is misjudged.
+
+use std::time::Duration;
+
+use super::Answer;
+
+/// Entries of values and derivatives a slow core works off in a second, expressions and factorisations included.
+const PER_SECOND: f64 = 1e7;
+/// A run that takes so many times what its work should is misjudged.
+const PATIENCE: f64 = 10.0;
+
+/// What is left to the others once a global minimum is proved: as much again as the proof took, at least 0.2 s worth.
+pub(super) fn cross_check(proof: f64) -> f64 {
+    proof.max(0.2 * PER_SECOND)
+}
+
+/// What is left to the others once a local minimum is certified: they may know a better one.
+pub(super) fn after_certified(work: f64) -> f64 {
+    (2.0 * work).max(5.0 * PER_SECOND)
+}
+
+/// After which a backend gives way to the next one, while nothing is certified.
+pub(super) fn first_turn() -> f64 {
+    2.0 * PER_SECOND
+}
+
+/// A further run of a backend: as much again as its first, at least a second's worth and at most ten.
+pub(super) fn further_run(first: f64) -> f64 {
+    first.clamp(PER_SECOND, 10.0 * PER_SECOND)
+}
+
+/// All solves of the elastic phase together, its filter, and the search for single moves, each: four times the cheapest first run, and a
+/// thousand evaluations at least.
+pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
+    (4.0 * first).clamp(0.5 * PER_SECOND, 20.0 * PER_SECOND).max(1000.0 * cost)
+}
+
+/// Evaluations below which a run is not worth beginning.
+pub(super) const FEWEST_EVALUATIONS: f64 = 20.0;
+
+/// Seconds after which the work allowed must have been done.
+pub(super) fn fence(work: f64) -> f64 {
+    (PATIENCE * work / PER_SECOND).max(1.0)
+}
+
+/// The same where a proof that took so long bounds what may follow: ten times as long, at least two seconds.
+pub(super) fn cross_check_fence(proof: Duration) -> f64 {
+    (PATIENCE * proof.as_secs_f64()).max(2.0)
+}
+
+/// What an answer has cost, all its attempts together.
+pub(super) fn of(answer: &Answer, cost: f64) -> f64 {
+    answer.solution.evaluations as f64 * cost
+}
+
+/// An allowance that several solves share.
+#[derive(Debug)]
+pub(super) struct Allowance(f64);
+
+impl Allowance {
+    pub(super) fn new(work: f64) -> Self {
+        Allowance(work)
+    }
+
+    pub(super) fn left(&self) -> f64 {
+        self.0
+    }
+
+    pub(super) fn spend(&mut self, work: f64) {
+        self.0 -= work;
+    }
+
+    pub(super) fn is_spent(&self) -> bool {
+        self.0 <= 0.0
+    }
+}
