@@ -13,8 +13,7 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
     for (place, &k) in order.iter().enumerate() {
         let share = match share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?)))) {
             Some(share) => share,
-            None if place + 1 == order.len() => Share { work: f64::INFINITY, seconds: f64::INFINITY },
-            None => Share { work: work::first_turn(), seconds: f64::INFINITY },
+            None => turn(ledger, place, order.len(), k),
         };
         let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
             true => ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into()),
@@ -25,14 +24,22 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
         };
         found[k] = Some(answer);
     }
-    let mut answers: Vec<Answer> = found.into_iter().flatten().collect();
-    go_on(ledger, &order, &mut answers);
-    answers
+    found.into_iter().flatten().collect()
+}
+
+/// A backend's share while nothing is certified.
+fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share {
+    let work = match (place, count) {
+        (_, 1) => f64::INFINITY,
+        (0, _) => work::first_turn(ledger.session.cost(ledger.solvers[k])),
+        _ => work::later_turn(ledger.least_first_work()),
+    };
+    Share { work, seconds: f64::INFINITY }
 }
 
 /// Those who gave way go on. Where nobody has met the rows, the elastic phase may know why: it comes first.
-fn go_on(ledger: &mut Ledger<'_, '_>, order: &[usize], answers: &mut [Answer]) {
-    let gave_way: Vec<usize> = order.iter().copied().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
+pub(super) fn go_on(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
+    let gave_way: Vec<usize> = ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
     let worth_it = answers.len() == gave_way.len() || answers.iter().any(|answer| answer.feasible);
     for k in gave_way.into_iter().filter(|_| worth_it) {
         let share = share(ledger, answers.iter().enumerate());

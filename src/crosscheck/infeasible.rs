@@ -19,6 +19,8 @@ use filter::{Core, Member};
 const NEGLIGIBLE: f64 = 1e-6;
 /// Multipliers below this, relative, are noise.
 const NOISE: f64 = 1e-6;
+/// What one solve may take of a phase's work.
+const SINGLE: f64 = 0.3;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
 
@@ -35,6 +37,15 @@ pub(super) enum Elasticity {
 /// Minimises the violation: of the linear rows alone, whose contradiction would be a proof, then of all rows, from the point given
 /// and, unless the class makes one start enough, from seeded ones.
 pub(super) fn examine(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticity> {
+    look(ledger, near, false)
+}
+
+/// The same where linear rows are known to contradict one another.
+pub(super) fn explain(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticity> {
+    look(ledger, near, true)
+}
+
+fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity> {
     let work = Work::new(ledger);
     let meta = work.model.meta();
     let all: Vec<usize> = (0..meta.rows()).collect();
@@ -44,16 +55,18 @@ pub(super) fn examine(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticit
     let start = work.inward(near);
     let linear: Vec<usize> = all.iter().copied().filter(|&i| meta.row_is_linear.get(i).copied().unwrap_or(false)).collect();
     if !work.is_global() && !linear.is_empty() && linear.len() < all.len() {
-        let relaxed = work.relax(&linear, &start).filter(|relaxed| work.is_contradiction(relaxed));
+        let relaxed = work.relax(&linear, &start).map(|relaxed| work.in_own_scales(&linear, relaxed));
+        let relaxed = relaxed.filter(|relaxed| known || work.is_contradiction(relaxed));
         if let Some(relaxed) = relaxed {
             return Some(work.infeasible(&relaxed, true));
         }
     }
     let best = match work.least_violation(&all, start)? {
+        Least::Feasible(z) if known => work.relax(&all, &z)?,
         Least::Feasible(z) => return Some(Elasticity::Feasible(work.outward(&z))),
-        Least::Violation(best) => best,
+        Least::Violation(best) => work.in_own_scales(&all, best),
     };
-    let proved = work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
+    let proved = known || work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
     if !proved && !best.certificate.certified {
         return Some(Elasticity::Unproved(work.outward(&best.x)));
     }
@@ -63,7 +76,7 @@ pub(super) fn examine(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticit
 /// The model backends work on, and what may be spent on it.
 struct Work<'a> {
     session: &'a Session<'a>,
-    /// In the order they run.
+    /// The cheapest first.
     solvers: Vec<Solver<'a>>,
     model: &'a dyn Model,
     allowance: RefCell<Allowance>,
@@ -97,7 +110,9 @@ enum Least {
 impl<'a> Work<'a> {
     fn new(ledger: &Ledger<'a, '_>) -> Self {
         let session = ledger.session;
-        let solvers: Vec<_> = ledger.order().into_iter().map(|k| ledger.solvers[k]).collect();
+        // Helper solves are many: the cheapest backend first, whatever the order of the others.
+        let mut solvers = ledger.solvers.to_vec();
+        solvers.sort_by(|&a, &b| session.cost(a).total_cmp(&session.cost(b)));
         let cost = solvers.iter().map(|&solver| session.cost(solver)).fold(f64::INFINITY, f64::min);
         let whole = work::elastic_phase(ledger.least_first_work(), cost);
         Work { session, solvers, model: session.working_model(), allowance: RefCell::new(Allowance::new(whole)), whole }
@@ -134,24 +149,41 @@ impl<'a> Work<'a> {
 
     /// Solves a helper model with what is left of the phase's work.
     fn solve(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64]) -> crate::backends::Solution {
-        let left = self.allowance.borrow().left();
-        let budget = self.session.budget(solver, model, left.max(0.0));
+        let left = self.allowance.borrow().left().min(SINGLE * self.whole);
+        let budget = self.session.budget(solver, model, left);
         let solution = self.session.solve_aside(solver, model, start, budget);
         self.allowance.borrow_mut().spend(solution.evaluations as f64 * solver.backend.work_per_evaluation(model));
         solution
     }
 
-    /// The least violation found from `start` and, where violations may have local minima, from seeded points.
+    /// The least violation found from `start` and, where violations may have local minima, from seeded points, by the cheapest
+    /// backend; where it proves nothing, by the others from there.
     fn least_violation(&self, rows: &[usize], start: Vec<f64>) -> Option<Least> {
+        let mut best = None::<Relaxed>;
         let mut seeds = Seeds::new(2);
         let more = if self.is_global() { 0 } else { STARTS };
+        let (&cheapest, others) = self.solvers.split_first()?;
+        let first = start.clone();
         let starts = std::iter::once(start).chain((0..more).map(|_| seeds.point(self.model.meta())));
-        let mut best = None::<Relaxed>;
         for start in starts {
             if self.session.clock.is_over() || (best.is_some() && self.is_over()) {
                 break;
             }
-            let Some(relaxed) = self.relax(rows, &start) else { continue };
+            let Some(relaxed) = self.relax_by(cheapest, self.model, rows, &start) else { continue };
+            if self.is_feasible(&relaxed.x) {
+                return Some(Least::Feasible(relaxed.x));
+            }
+            if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
+                best = Some(relaxed);
+            }
+        }
+        for &solver in others {
+            if self.session.clock.is_over() || best.as_ref().is_some_and(|best| best.certificate.certified) {
+                break;
+            }
+            self.refill();
+            let near = best.as_ref().map_or_else(|| first.clone(), |best| best.x.clone());
+            let Some(relaxed) = self.relax_by(solver, self.model, rows, &near) else { continue };
             if self.is_feasible(&relaxed.x) {
                 return Some(Least::Feasible(relaxed.x));
             }
@@ -169,22 +201,12 @@ impl<'a> Work<'a> {
 
     /// The same with the bounds of `model`.
     fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start)).ok()?;
-        let judge = Certifier::new(&elastic, self.session.task.class, self.session.tolerances);
         let mut best: Option<Relaxed> = None;
         for &solver in &self.solvers {
             if best.is_some() && self.is_over() {
                 break;
             }
-            let solution = self.solve(solver, &elastic, &elastic.meta().start);
-            let Ok(certificate) = judge.certify(&solution.x, solution.multipliers.as_deref()) else { continue };
-            let violation = elastic.violation(&solution.x);
-            let mut multipliers = vec![0.0; self.model.meta().rows()];
-            for (k, &y) in certificate.row_multipliers.iter().enumerate() {
-                multipliers[elastic.row(k)] = y;
-            }
-            let carriers = carriers(&elastic, &certificate);
-            let relaxed = Relaxed { x: elastic.original(&solution.x).to_vec(), violation, certificate, multipliers, carriers };
+            let Some(relaxed) = self.relax_by(solver, model, rows, start) else { continue };
             let proved = relaxed.certificate.certified || self.is_feasible(&relaxed.x);
             if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
                 best = Some(relaxed);
@@ -194,6 +216,28 @@ impl<'a> Work<'a> {
             }
         }
         best
+    }
+
+    /// The elastic minimum over these rows by one backend.
+    fn relax_by(&self, solver: Solver<'_>, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
+        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start), start).ok()?;
+        let judge = Certifier::new(&elastic, self.session.task.class, self.session.tolerances);
+        let solution = self.solve(solver, &elastic, &elastic.meta().start);
+        let certificate = judge.certify(&solution.x, solution.multipliers.as_deref()).ok()?;
+        let violation = elastic.violation(&solution.x);
+        let mut multipliers = vec![0.0; self.model.meta().rows()];
+        for (k, &y) in certificate.row_multipliers.iter().enumerate() {
+            multipliers[elastic.row(k)] = y;
+        }
+        let carriers = carriers(&elastic, &certificate);
+        Some(Relaxed { x: elastic.original(&solution.x).to_vec(), violation, certificate, multipliers, carriers })
+    }
+
+    /// The elastic minimum anew, its rows in units of their terms where it lies: those of the start may be far off.
+    fn in_own_scales(&self, rows: &[usize], found: Relaxed) -> Relaxed {
+        self.refill();
+        let again = self.relax(rows, &found.x).filter(|again| again.certificate.certified || !found.certificate.certified);
+        again.unwrap_or(found)
     }
 
     /// Whether the multipliers at an elastic minimum prove that no point meets the rows.

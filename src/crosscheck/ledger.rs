@@ -91,7 +91,7 @@ impl<'r, 'o> Ledger<'r, 'o> {
 }
 
 /// How many times the cheapest backend's cost makes a backend wait for the others.
-const DEAR: f64 = 8.0;
+const DEAR: f64 = 3.0;
 
 fn order(costs: &[f64]) -> Vec<usize> {
     let cheapest = costs.iter().copied().fold(f64::INFINITY, f64::min);

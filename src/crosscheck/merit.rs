@@ -9,9 +9,14 @@ const AGREEMENT: f64 = 1e-6;
 /// Roundings of an objective's terms.
 const ROUNDINGS: f64 = 64.0;
 
+/// σ beside an infinite slope says nothing of the objective's size: so many times the values at the point and the start at most.
+const STEEPEST: f64 = 1e3;
+
 /// Below which objectives do not differ from that of a judged point: the agreement, or the rounding of the objective's terms.
 pub(super) fn level(session: &Session<'_>, x: &[f64], certificate: &Certificate) -> f64 {
-    (AGREEMENT * certificate.sigma).max(rounding(session, x, certificate.objective))
+    let begun = session.task.model.objective(session.task.start).map_or(0.0, f64::abs);
+    let sigma = certificate.sigma.min(STEEPEST * (certificate.objective.abs() + begun));
+    (AGREEMENT * sigma).max(rounding(session, x, certificate.objective))
 }
 
 /// Roundings of f's terms at x; where they are not known, |f| and |∂f/∂x_j·x_j| stand for them.

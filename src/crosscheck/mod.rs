@@ -74,13 +74,13 @@ fn solved(ledger: &mut Ledger<'_, '_>) -> Outcome {
 fn contradictory_rows(ledger: &mut Ledger<'_, '_>) -> Option<Outcome> {
     let session = ledger.session;
     let tolerance = session.tolerances.constraint;
-    let row = impossible_row(session.task.model, tolerance)?;
+    impossible_row(session.task.model, tolerance)?;
     let why = "not run: the linear rows contradict one another within the bounds";
     let answers = (0..ledger.solvers.len()).map(|k| ledger.not_run(k, why.into())).collect();
-    let (x, conflict) = match infeasible::examine(ledger, session.task.start) {
+    let (x, conflict) = match infeasible::explain(ledger, session.task.start) {
         Some(Elasticity::Infeasible { x, conflict, .. }) => (x, conflict),
-        Some(Elasticity::Unproved(x) | Elasticity::Feasible(x)) => (x, Conflict { rows: vec![row], ..Conflict::default() }),
-        None => (session.task.start.to_vec(), Conflict { rows: vec![row], ..Conflict::default() }),
+        Some(Elasticity::Unproved(x) | Elasticity::Feasible(x)) => (x, Conflict::default()),
+        None => (session.task.start.to_vec(), Conflict::default()),
     };
     Some(verdict::infeasible(session, answers, x, (conflict, true)))
 }
@@ -112,10 +112,17 @@ fn further_runs(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
     let session = ledger.session;
     let is_proved =
         |answers: &[Answer]| session.task.class.is_global() && answers.iter().any(|answer| answer.is_certified());
-    for k in ledger.order() {
-        if !is_proved(answers) {
-            restarts::improve(ledger, k, &mut answers[k]);
+    let improve = |ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]| {
+        for k in ledger.order() {
+            if !is_proved(answers) {
+                restarts::improve(ledger, k, &mut answers[k]);
+            }
         }
+    };
+    improve(ledger, answers);
+    if answers.iter().any(|answer| answer.gave_way && !answer.is_certified()) {
+        first_round::go_on(ledger, answers);
+        improve(ledger, answers);
     }
     restarts::probe(ledger, answers);
     let Some(best) = verdict::best(session, answers).map(|best| answers[best].clone()) else { return };

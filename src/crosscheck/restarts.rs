@@ -202,7 +202,7 @@ pub(super) fn probe(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
         if session.clock.is_over() {
             return;
         }
-        let allowed = work::further_run(ledger.first_work(k)).min(work::first_turn());
+        let allowed = work::probe(ledger.first_work(k));
         let next = ledger.run(k, &start, allowed);
         if next.is_certified() && merit::is_lower(session, &next, &answers[best]) {
             answers[k].certificate = None;

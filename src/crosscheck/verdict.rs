@@ -134,12 +134,9 @@ fn agreement(session: &Session<'_>, outcome: &Outcome) -> Option<Agreement> {
     }
     let (mut objective_difference, mut variable_difference, mut certified) = (0f64, 0f64, true);
     for answer in ran {
-        let Some(certificate) = &answer.certificate else {
-            certified = false;
-            continue;
-        };
-        certified &= certificate.certified;
-        objective_difference = objective_difference.max((certificate.objective - reference.objective).abs());
+        certified &= answer.is_certified();
+        let Some(objective) = answer.objective else { continue };
+        objective_difference = objective_difference.max((objective - reference.objective).abs());
         let pairs = answer.solution.x.iter().zip(&best.solution.x).zip(&reference.variable_scales);
         variable_difference = pairs.fold(variable_difference, |most, ((a, b), d)| most.max((a - b).abs() / d));
     }

@@ -84,11 +84,19 @@ pub(super) fn infeasible(session: &Session<'_>, outcome: &mut Outcome, conflict:
     });
 }
 
-/// `a.h.upper 100 -> 178.6 (+79 %, the least)`
+/// `a.h.upper 100 -> 178.6 (+78.6 %, the least)`
 fn change(session: &Session<'_>, found: &LimitMove) -> String {
     let per_cent = 100.0 * found.relative() * (found.to - found.from).signum();
-    let least = if found.least { ", the least" } else { "" };
-    format!("{} {} -> {} ({per_cent:+.3} %{least})", found.limit.label(session.task.model), found.from, found.to)
+    let relative = (found.from != 0.0).then(|| format!("{per_cent:+.3} %"));
+    let least = found.least.then(|| "the least".to_string());
+    let remarks: Vec<String> = relative.into_iter().chain(least).collect();
+    let remarks = if remarks.is_empty() { String::new() } else { format!(" ({})", remarks.join(", ")) };
+    format!("{} {} -> {}{remarks}", found.limit.label(session.task.model), plain(found.from), plain(found.to))
+}
+
+/// Without rows of zeros.
+fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 pub(super) fn no_feasible_point(outcome: &mut Outcome) {

@@ -20,9 +20,20 @@ pub(super) fn after_certified(work: f64) -> f64 {
     (2.0 * work).max(5.0 * PER_SECOND)
 }
 
-/// After which a backend gives way to the next one, while nothing is certified.
-pub(super) fn first_turn() -> f64 {
-    2.0 * PER_SECOND
+/// What the cheapest backend may spend before it gives way to the next one: ten seconds' worth, and two thousand evaluations at
+/// least, which end any interior-point run that converges.
+pub(super) fn first_turn(cost: f64) -> f64 {
+    (10.0 * PER_SECOND).max(2000.0 * cost)
+}
+
+/// What the others may spend at first, while nothing is certified: four times what the cheapest has, at least two seconds' worth.
+pub(super) fn later_turn(spent: f64) -> f64 {
+    (4.0 * spent).max(2.0 * PER_SECOND)
+}
+
+/// One run of the probe at the most.
+pub(super) fn probe(first: f64) -> f64 {
+    first.clamp(0.2 * PER_SECOND, 2.0 * PER_SECOND)
 }
 
 /// A further run of a backend: as much again as its first, at least a second's worth and at most ten.
@@ -56,22 +67,28 @@ pub(super) fn of(answer: &Answer, cost: f64) -> f64 {
 
 /// An allowance that several solves share.
 #[derive(Debug)]
-pub(super) struct Allowance(f64);
+pub(super) struct Allowance {
+    whole: f64,
+    left: f64,
+}
+
+/// A phase ends when this share of its work is left: nothing ends within less.
+const REST: f64 = 0.01;
 
 impl Allowance {
     pub(super) fn new(work: f64) -> Self {
-        Allowance(work)
+        Allowance { whole: work, left: work }
     }
 
     pub(super) fn left(&self) -> f64 {
-        self.0
+        self.left.max(0.0)
     }
 
     pub(super) fn spend(&mut self, work: f64) {
-        self.0 -= work;
+        self.left -= work;
     }
 
     pub(super) fn is_spent(&self) -> bool {
-        self.0 <= 0.0
+        self.left <= REST * self.whole
     }
 }

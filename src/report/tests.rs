@@ -4,6 +4,7 @@ use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
 use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
+use crate::model::Limit as AnyLimit;
 use crate::model::sample::Sample;
 
 fn model() -> Sample {
@@ -139,7 +140,7 @@ fn the_summary_of_an_infeasible_problem_names_the_conflict() {
         violated_rows: vec![(0, 0.25)],
         rows: vec![0],
         bounds: vec![(1, true)],
-        alternatives: vec![LimitMove { limit: Limit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
+        alternatives: vec![LimitMove { limit: AnyLimit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
         minimal: true,
     };
     let infeasible = Outcome {

@@ -54,11 +54,14 @@ fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit) -> Option<Alone> {
     let inner = Freed::new(work.model, limit);
     let outer = Freed::new(user, limit);
     let judge = Certifier::new(&outer, class, work.session.tolerances);
+    // The way back from substituted variables ends at the user's bounds: a bound is let go in the user's variables.
+    let substitution = work.session.task.substitution.filter(|_| matches!(limit, Limit::Row(..)));
+    let model: &dyn Model = if substitution.is_some() { &inner } else { &outer };
+    let mut start = if substitution.is_some() { best.x.clone() } else { work.outward(&best.x) };
+    model.meta().clamp(&mut start);
     work.solvers.iter().find_map(|&solver| {
-        let mut start = best.x.clone();
-        inner.meta().clamp(&mut start);
-        let solution = work.solve(solver, &inner, &start);
-        let mut x = work.session.task.substitution.map_or_else(|| solution.x.clone(), |other| other.outward(&solution.x));
+        let solution = work.solve(solver, model, &start);
+        let mut x = substitution.map_or_else(|| solution.x.clone(), |other| other.outward(&solution.x));
         outer.meta().clamp(&mut x);
         if work.session.judge.primal_infeasibility(&x).is_some_and(|worst| worst <= work.session.tolerances.constraint) {
             return Some(Alone::Feasible(x));
