@@ -16,7 +16,9 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
             None => turn(ledger, place, order.len(), k),
         };
         let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
-            true => ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into()),
+            true => {
+                ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into())
+            }
             false => {
                 let multipliers = ledger.session.task.start_multipliers;
                 ledger.run_within(k, ledger.session.task.start, (share.work, share.seconds), multipliers)
@@ -39,7 +41,8 @@ fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share 
 
 /// Those who gave way go on. Where nobody has met the rows, the elastic phase may know why: it comes first.
 pub(super) fn go_on(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
-    let gave_way: Vec<usize> = ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
+    let gave_way: Vec<usize> =
+        ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
     let worth_it = answers.len() == gave_way.len() || answers.iter().any(|answer| answer.feasible);
     for k in gave_way.into_iter().filter(|_| worth_it) {
         let share = share(ledger, answers.iter().enumerate());
@@ -71,10 +74,7 @@ fn share<'a>(ledger: &Ledger<'_, '_>, answers: impl Iterator<Item = (usize, &'a 
     let costs = certified.map(|(k, answer)| (work::of(answer, ledger.session.cost(ledger.solvers[k])), answer.solution.seconds));
     let (proof, seconds) = costs.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))?;
     Some(match ledger.session.task.class.is_global() {
-        true => Share {
-            work: work::cross_check(proof),
-            seconds: work::cross_check_fence(Duration::from_secs_f64(seconds)),
-        },
+        true => Share { work: work::cross_check(proof), seconds: work::cross_check_fence(Duration::from_secs_f64(seconds)) },
         false => Share { work: work::after_certified(proof), seconds: f64::INFINITY },
     })
 }

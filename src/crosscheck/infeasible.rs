@@ -49,7 +49,7 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
     let work = Work::new(ledger);
     let meta = work.model.meta();
     let all: Vec<usize> = (0..meta.rows()).collect();
-    if all.is_empty() {
+    if all.is_empty() || work.session.clock.is_over() {
         return None;
     }
     let start = work.inward(near);
@@ -254,8 +254,8 @@ impl<'a> Work<'a> {
         self.refill();
         let Core { members, complete } = filter::filter(self, best);
         self.refill();
-        let (alternatives, feasible) = moves::enough(self, best, &members);
-        if let Some(x) = feasible.filter(|_| !proved) {
+        let (alternatives, feasible) = moves::enough(self, best, &members, proved);
+        if let Some(x) = feasible {
             return Elasticity::Feasible(x);
         }
         // Rows beyond the user's own belong to the substitution.

@@ -34,7 +34,8 @@ pub(super) fn priced(session: &Session<'_>, answer: &Answer, prices: &Certificat
     let mut rows = vec![0.0; meta.rows()];
     session.task.model.constraints(x, &mut rows).ok()?;
     let violation = |value: f64, lower: f64, upper: f64| (lower - value).max(value - upper).max(0.0);
-    let of_rows = (0..rows.len()).map(|i| prices.row_multipliers[i].abs() * violation(rows[i], meta.row_lower[i], meta.row_upper[i]));
+    let of_rows =
+        (0..rows.len()).map(|i| prices.row_multipliers[i].abs() * violation(rows[i], meta.row_lower[i], meta.row_upper[i]));
     let of_bounds = (0..x.len()).map(|j| prices.bound_multipliers[j].abs() * violation(x[j], meta.lower[j], meta.upper[j]));
     Some(answer.objective? + of_rows.sum::<f64>() + of_bounds.sum::<f64>())
 }

@@ -23,12 +23,8 @@ pub(super) enum Restart {
 }
 
 /// What is tried for an answer that did not pass, in this order until it does, and how often at the most.
-pub(super) const POLICY: &[(Restart, usize)] = &[
-    (Restart::EscapeSaddle, 5),
-    (Restart::BoundsAhead, 1),
-    (Restart::AtOwnBest, 1),
-    (Restart::Beside(1e-2), 1),
-];
+pub(super) const POLICY: &[(Restart, usize)] =
+    &[(Restart::EscapeSaddle, 5), (Restart::BoundsAhead, 1), (Restart::AtOwnBest, 1), (Restart::Beside(1e-2), 1)];
 
 /// For answers that still do not pass beside one that does.
 pub(super) const BESIDE_CERTIFIED: Restart = Restart::CrossStart(1e-3);
@@ -243,6 +239,7 @@ fn bring(ledger: &mut Ledger<'_, '_>, k: usize, answer: &mut Answer, better: &An
     }
     add_effort(&mut next, answer);
     next.remarks = std::mem::take(&mut answer.remarks);
-    next.remarks.push(format!("had a local minimum above a feasible point of {}, and was started again from there", better.backend));
+    next.remarks
+        .push(format!("had a local minimum above a feasible point of {}, and was started again from there", better.backend));
     *answer = next;
 }

@@ -79,7 +79,13 @@ impl Backend for Script {
     }
 }
 
-fn judged(model: &Sample, class: Class, settings: &Settings, backends: &[&dyn Backend], interrupt: Option<&AtomicBool>) -> Outcome {
+fn judged(
+    model: &Sample,
+    class: Class,
+    settings: &Settings,
+    backends: &[&dyn Backend],
+    interrupt: Option<&AtomicBool>,
+) -> Outcome {
     let task = Task {
         model,
         substitution: None,
@@ -172,7 +178,8 @@ fn a_difference_of_rounding_is_none() {
 #[test]
 fn an_objective_bought_by_a_violation_is_not_lower() {
     // 1000 + x ≥ 1000.5: 5e-6 below is within the tolerance of the row, and beyond the agreement of the objective.
-    let model = Sample::new(&[0.7], |x| x[0]).bound(0, -9.0, 9.0).row(1000.5, INF, |x| x[0] + 1000.0).row(-INF, 1.0, |x| x[0] * x[0]);
+    let model =
+        Sample::new(&[0.7], |x| x[0]).bound(0, -9.0, 9.0).row(1000.5, INF, |x| x[0] + 1000.0).row(-INF, 1.0, |x| x[0] * x[0]);
     let bought = Script::new("two", &[&[0.5 - 5e-6]]);
     let found = outcome(&model, &[&Script::new("one", &[&[0.5]]), &bought]);
     assert!(found.status == Status::Certified && !found.better_point_elsewhere, "{found:#?}");
@@ -235,9 +242,10 @@ fn a_backend_that_stays_where_it_is_is_not_started_for_ever() {
 
 #[test]
 fn a_proof_of_infeasibility_stands_against_a_point_far_away() {
-    let model = Sample::new(&[1.0, 1.0], |x| x[0] * x[0] + x[1] * x[1])
-        .row(4.0, 4.0, |x| x[0] * 2.0 + x[1] * 2.0)
-        .row(9.0, 9.0, |x| x[0] * 2.0 + x[1] * 2.0);
+    let model =
+        Sample::new(&[1.0, 1.0], |x| x[0] * x[0] + x[1] * x[1])
+            .row(4.0, 4.0, |x| x[0] * 2.0 + x[1] * 2.0)
+            .row(9.0, 9.0, |x| x[0] * 2.0 + x[1] * 2.0);
     let away = Script { variables: 2, ..Script::new("away", &[&[1e16, -1e16]]) };
     let found = judged(&model, Class::Convex, &Settings::default(), &[&away, &Argmin], None);
     assert_eq!((found.status, found.scope, found.exit_code()), (Status::Infeasible, crate::certificate::Scope::Global, 3));

@@ -132,10 +132,9 @@ pub struct LimitMove {
 }
 
 impl LimitMove {
-    /// |to − from| over the limit's size, or over that of `to` where the limit is 0.
+    /// |to − from| over the limit's size; infinite where the limit is 0 and has none.
     pub fn relative(&self) -> f64 {
-        let size = if self.from == 0.0 { self.to.abs() } else { self.from.abs() };
-        (self.to - self.from).abs() / size.max(f64::MIN_POSITIVE)
+        (self.to - self.from).abs() / self.from.abs()
     }
 }
 

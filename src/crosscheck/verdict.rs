@@ -1,8 +1,8 @@
 //! From judged answers to the outcome.
 
-use super::session::Session;
 use super::diverging::{Fall, Ray};
 use super::merit;
+use super::session::Session;
 use super::words;
 use super::{Agreement, Answer, Conflict, Outcome, Status};
 use crate::backends::Termination;
@@ -90,8 +90,7 @@ pub(super) fn undecided(session: &Session<'_>, answers: Vec<Answer>) -> Outcome 
         Status::NotAttained
     } else if session.clock.is_over() || (ended(Termination::LimitReached) && !ended(Termination::Converged)) {
         Status::LimitReached
-    } else if answers.iter().all(|answer| answer.objective.is_none() || answer.solution.invalid.is_some())
-        && !answers.is_empty()
+    } else if answers.iter().all(|answer| answer.objective.is_none() || answer.solution.invalid.is_some()) && !answers.is_empty()
     {
         Status::InvalidValue
     } else {

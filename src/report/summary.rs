@@ -235,7 +235,7 @@ fn conflict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         for found in alternatives.iter().take(MOST_LINES) {
             let least = if found.least { "the least" } else { "enough" };
             let (from, to) = (significant(found.from, 6), significant(found.to, 6));
-            table.add(vec![found.limit.label(model), from, to, percent(found.relative()), least.into()]);
+            table.add(vec![found.limit.label(model), from, to, share_text(found.relative()), least.into()]);
         }
         write!(out, "{table}")?;
     }

@@ -53,17 +53,16 @@ fn outcome() -> Outcome {
         seconds: 0.25,
         invalid: None,
     };
-    let answer =
-        Answer {
-            backend: "argmin",
-            solution,
-            objective: Some(1.9),
-            certificate: Some(certificate()),
-            feasible: true,
-            attempt: 1,
-            gave_way: false,
-            remarks: Vec::new(),
-        };
+    let answer = Answer {
+        backend: "argmin",
+        solution,
+        objective: Some(1.9),
+        certificate: Some(certificate()),
+        feasible: true,
+        attempt: 1,
+        gave_way: false,
+        remarks: Vec::new(),
+    };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,

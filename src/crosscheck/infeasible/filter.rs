@@ -99,9 +99,7 @@ impl Trial<'_, '_> {
         let upper = (0..meta.variables()).map(|j| if keeps(j, true) { meta.upper[j] } else { f64::INFINITY });
         let model = Rebounded::new(self.work.model, lower.collect(), upper.collect());
         match self.work.relax_model(&model, &rows, self.start).filter(|relaxed| relaxed.certificate.certified) {
-            Some(relaxed) if relaxed.violation > self.work.least() => {
-                Decision::Conflict(self.work.members(&relaxed))
-            }
+            Some(relaxed) if relaxed.violation > self.work.least() => Decision::Conflict(self.work.members(&relaxed)),
             Some(_) => Decision::Compatible,
             None => Decision::Open,
         }

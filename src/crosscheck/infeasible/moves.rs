@@ -12,14 +12,15 @@ const TRIED: usize = 12;
 /// Digits of the limit proposed; rounded away from the conflict.
 const DIGITS: i32 = 6;
 
-/// The moves that are enough, the least relative one first; and a point that meets all limits, should one turn up.
-pub(super) fn enough(work: &Work<'_>, best: &Relaxed, members: &[Member]) -> (Vec<LimitMove>, Option<Vec<f64>>) {
+/// The moves that are enough, the least relative one first; and a point that meets all limits, should one turn up where it is not
+/// `proved` that there is none.
+pub(super) fn enough(work: &Work<'_>, best: &Relaxed, members: &[Member], proved: bool) -> (Vec<LimitMove>, Option<Vec<f64>>) {
     let mut found = Vec::new();
     for limit in members.iter().take(TRIED).filter_map(|&member| limit(work, best, member)) {
         if work.is_over() {
             break;
         }
-        match alone(work, best, limit) {
+        match alone(work, best, limit, proved) {
             Some(Alone::Enough(found_move)) => found.push(found_move),
             Some(Alone::Feasible(x)) => return (found, Some(x)),
             None => {}
@@ -48,7 +49,7 @@ enum Alone {
 }
 
 /// How far this limit has to move while all others stay.
-fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit) -> Option<Alone> {
+fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit, proved: bool) -> Option<Alone> {
     let (user, class) = (work.session.task.model, work.session.task.class);
     let from = limit.value(user.meta());
     let inner = Freed::new(work.model, limit);
@@ -63,10 +64,13 @@ fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit) -> Option<Alone> {
         let solution = work.solve(solver, model, &start);
         let mut x = substitution.map_or_else(|| solution.x.clone(), |other| other.outward(&solution.x));
         outer.meta().clamp(&mut x);
-        if work.session.judge.primal_infeasibility(&x).is_some_and(|worst| worst <= work.session.tolerances.constraint) {
-            return Some(Alone::Feasible(x));
+        let meets = |judge: &Certifier<'_>| {
+            judge.primal_infeasibility(&x).is_some_and(|worst| worst <= work.session.tolerances.constraint)
+        };
+        if !proved && meets(&work.session.judge) {
+            return Some(Alone::Feasible(x.clone()));
         }
-        let meets_others = judge.primal_infeasibility(&x).is_some_and(|worst| worst <= work.session.tolerances.constraint);
+        let meets_others = meets(&judge);
         let needed = outer.needed(&x).ok().filter(|needed| meets_others && (*needed > from) == limit.is_upper())?;
         let least = class.is_global() && judge.certify(&x, None).is_ok_and(|certificate| certificate.certified);
         Some(Alone::Enough(LimitMove { limit, from, to: rounded(needed, limit.is_upper()), least }))

@@ -17,7 +17,7 @@ struct Alternative {
     limit: String,
     from: f64,
     to: f64,
-    relative: f64,
+    relative: Option<f64>,
     least: bool,
 }
 
@@ -41,7 +41,7 @@ impl ConflictPart {
             limit: found.limit.label(model),
             from: found.from,
             to: found.to,
-            relative: found.relative(),
+            relative: Some(found.relative()).filter(|share| share.is_finite()),
             least: found.least,
         };
         let side = |upper| if upper { "upper" } else { "lower" };
