@@ -19,8 +19,6 @@ use filter::{Core, Member};
 const NEGLIGIBLE: f64 = 1e-6;
 /// Multipliers below this, relative, are noise.
 const NOISE: f64 = 1e-6;
-/// What one solve may take of a phase's work.
-const SINGLE: f64 = 0.3;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
 
@@ -80,8 +78,8 @@ struct Work<'a> {
     solvers: Vec<Solver<'a>>,
     model: &'a dyn Model,
     allowance: RefCell<Allowance>,
-    /// What each of the phases may spend.
-    whole: f64,
+    /// What explains the minimum may spend, each of its phases.
+    explanation: f64,
 }
 
 /// An elastic minimum.
@@ -114,8 +112,9 @@ impl<'a> Work<'a> {
         let mut solvers = ledger.solvers.to_vec();
         solvers.sort_by(|&a, &b| session.cost(a).total_cmp(&session.cost(b)));
         let cost = solvers.iter().map(|&solver| session.cost(solver)).fold(f64::INFINITY, f64::min);
-        let whole = work::elastic_phase(ledger.least_first_work(), cost);
-        Work { session, solvers, model: session.working_model(), allowance: RefCell::new(Allowance::new(whole)), whole }
+        let first = ledger.least_first_work();
+        let allowance = RefCell::new(Allowance::new(work::elastic_phase(first, cost)));
+        Work { session, solvers, model: session.working_model(), allowance, explanation: work::explanation(first, cost) }
     }
 
     /// Whether the class makes every stationary point of the elastic problem its least.
@@ -140,7 +139,7 @@ impl<'a> Work<'a> {
 
     /// Begins a phase with work of its own.
     fn refill(&self) {
-        *self.allowance.borrow_mut() = Allowance::new(self.whole);
+        *self.allowance.borrow_mut() = Allowance::new(self.explanation);
     }
 
     fn is_over(&self) -> bool {
@@ -149,7 +148,7 @@ impl<'a> Work<'a> {
 
     /// Solves a helper model with what is left of the phase's work.
     fn solve(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64]) -> crate::backends::Solution {
-        let left = self.allowance.borrow().left().min(SINGLE * self.whole);
+        let left = self.allowance.borrow().single();
         let budget = self.session.budget(solver, model, left);
         let solution = self.session.solve_aside(solver, model, start, budget);
         self.allowance.borrow_mut().spend(solution.evaluations as f64 * solver.backend.work_per_evaluation(model));

@@ -138,7 +138,9 @@ impl<'a> Session<'a> {
     pub(super) fn solve_aside(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64], budget: Budget<'_>) -> Solution {
         let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE));
         let stop = |x: &[f64]| own.accepts(x);
-        self.solve(solver, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
+        // On a thread of the pool, where factorisations that ask for the pool need not wait for another one.
+        let begin = Start { x: start, multipliers: None, budget, stop: &stop, part: None };
+        rayon::scope(|_| self.solve(solver, model, &begin, &mut |_| {}))
     }
 
     /// Whether a point of a part of the model passes by itself.

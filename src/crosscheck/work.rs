@@ -41,10 +41,14 @@ pub(super) fn further_run(first: f64) -> f64 {
     first.clamp(PER_SECOND, 10.0 * PER_SECOND)
 }
 
-/// All solves of the elastic phase together, its filter, and the search for single moves, each: four times the cheapest first run, and a
-/// thousand evaluations at least.
+/// All solves of the elastic phase together: four times the cheapest first run, and a thousand evaluations at least.
 pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
     (4.0 * first).clamp(0.5 * PER_SECOND, 20.0 * PER_SECOND).max(1000.0 * cost)
+}
+
+/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves.
+pub(super) fn explanation(first: f64, cost: f64) -> f64 {
+    first.clamp(0.5 * PER_SECOND, 5.0 * PER_SECOND).max(1000.0 * cost)
 }
 
 /// Evaluations below which a run is not worth beginning.
@@ -72,6 +76,8 @@ pub(super) struct Allowance {
     left: f64,
 }
 
+/// What one solve may take of its phase's work.
+const SINGLE: f64 = 0.3;
 /// A phase ends when this share of its work is left: nothing ends within less.
 const REST: f64 = 0.01;
 
@@ -80,8 +86,9 @@ impl Allowance {
         Allowance { whole: work, left: work }
     }
 
-    pub(super) fn left(&self) -> f64 {
-        self.left.max(0.0)
+    /// What one solve may take.
+    pub(super) fn single(&self) -> f64 {
+        self.left.min(SINGLE * self.whole).max(0.0)
     }
 
     pub(super) fn spend(&mut self, work: f64) {
