@@ -12,6 +12,7 @@ mod infeasible;
 mod ledger;
 mod merit;
 mod multistart;
+mod pool;
 mod restarts;
 #[cfg(test)]
 mod scripted;

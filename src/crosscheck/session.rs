@@ -1,8 +1,8 @@
 //! The task with what is needed to run backends and to judge what they bring.
 
 use super::clock::Clock;
-use super::work;
 use super::{Answer, Task};
+use super::{pool, work};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model};
@@ -117,6 +117,16 @@ impl<'a> Session<'a> {
         if let Some(reason) = solver.backend.refusal(solver.algorithm, model) {
             return refused(solver.algorithm, start.x, reason);
         }
+        pool::with_observer(observer, |observer| self.run(solver, model, start, observer))
+    }
+
+    fn run(
+        &self,
+        solver: Solver<'_>,
+        model: &dyn Model,
+        start: &Start<'_>,
+        observer: &mut dyn FnMut(&Iteration<'_>),
+    ) -> Solution {
         let settings = self.task.settings;
         let mut job = Job {
             algorithm: solver.algorithm,
@@ -138,9 +148,7 @@ impl<'a> Session<'a> {
     pub(super) fn solve_aside(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64], budget: Budget<'_>) -> Solution {
         let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE));
         let stop = |x: &[f64]| own.accepts(x);
-        // On a thread of the pool, where factorisations that ask for the pool need not wait for another one.
-        let begin = Start { x: start, multipliers: None, budget, stop: &stop, part: None };
-        rayon::scope(|_| self.solve(solver, model, &begin, &mut |_| {}))
+        self.solve(solver, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
     }
 
     /// Whether a point of a part of the model passes by itself.
