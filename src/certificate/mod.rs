@@ -3,12 +3,14 @@
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
 mod candidates;
+mod farkas;
 mod feasibility;
 mod higher_order;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
 mod point;
+mod propagation;
 mod runaway;
 mod scales;
 mod second_order;
@@ -25,7 +27,9 @@ use point::{Origin, Point};
 use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
+pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
+pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
 pub use types::{Certificate, Scope, Side, Tolerances};
 

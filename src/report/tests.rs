@@ -3,7 +3,8 @@
 use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
-use crate::crosscheck::{Agreement, Answer, Conflict, Status};
+use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
+use crate::model::Limit as AnyLimit;
 use crate::model::sample::Sample;
 
 fn model() -> Sample {
@@ -52,8 +53,16 @@ fn outcome() -> Outcome {
         seconds: 0.25,
         invalid: None,
     };
-    let answer =
-        Answer { backend: "argmin", solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
+    let answer = Answer {
+        backend: "argmin",
+        solution,
+        objective: Some(1.9),
+        certificate: Some(certificate()),
+        feasible: true,
+        attempt: 1,
+        gave_way: false,
+        remarks: Vec::new(),
+    };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,
@@ -130,7 +139,7 @@ fn the_summary_of_an_infeasible_problem_names_the_conflict() {
         violated_rows: vec![(0, 0.25)],
         rows: vec![0],
         bounds: vec![(1, true)],
-        relaxations: vec![(0, -0.25)],
+        alternatives: vec![LimitMove { limit: AnyLimit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
         minimal: true,
     };
     let infeasible = Outcome {
