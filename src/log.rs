@@ -11,7 +11,8 @@ use crate::backends::Iteration;
 /// Up to this many variables, each has a column of its own.
 pub const MOST_VARIABLE_COLUMNS: usize = 50;
 
-const COLUMNS: [&str; 7] = ["iteration", "evaluations", "objective", "feasibility", "optimality", "step_norm", "seconds"];
+const COLUMNS: [&str; 8] =
+    ["iteration", "evaluations", "objective", "feasibility", "optimality", "step_norm", "seconds", "attempt"];
 
 /// `log-<backend>.csv` while the run goes on.
 ///
@@ -22,7 +23,9 @@ pub struct IterationLog {
     path: PathBuf,
     file: File,
     with_variables: bool,
-    begun: Instant,
+    begun: Option<Instant>,
+    /// The last point of each attempt.
+    last: Vec<Vec<f64>>,
     failure: Option<io::Error>,
 }
 
@@ -39,23 +42,42 @@ impl IterationLog {
         }
         let mut file = File::create(path)?;
         write_row(&mut file, &header)?;
-        Ok(IterationLog { path: path.into(), file, with_variables, begun: Instant::now(), failure: None })
+        Ok(IterationLog { path: path.into(), file, with_variables, begun: None, last: Vec::new(), failure: None })
     }
 
-    /// Seconds count from here.
+    /// The backend begins anew: further rows are of the next attempt. Seconds count from the first.
     pub fn begin(&mut self) {
-        self.begun = Instant::now();
+        self.begun.get_or_insert_with(Instant::now);
+        self.last.push(Vec::new());
     }
 
     /// Adds a row.
     pub fn add(&mut self, iteration: &Iteration<'_>) {
+        if let Some(last) = self.last.last_mut() {
+            last.clear();
+            last.extend_from_slice(iteration.x);
+        }
+        self.row(self.last.len(), iteration);
+    }
+
+    /// Adds the point an attempt brought back, unless its last row is that already; brings back whether it did.
+    pub fn close(&mut self, attempt: usize, answer: &Iteration<'_>) -> bool {
+        let known = attempt.checked_sub(1).and_then(|at| self.last.get(at)).is_some_and(|last| last == answer.x);
+        if !known {
+            self.row(attempt, answer);
+        }
+        !known
+    }
+
+    fn row(&mut self, attempt: usize, iteration: &Iteration<'_>) {
         if self.failure.is_some() {
             return;
         }
         let mut row = vec![iteration.iteration.to_string(), iteration.evaluations.to_string()];
-        let seconds = self.begun.elapsed().as_secs_f64();
+        let seconds = self.begun.map_or(0.0, |begun| begun.elapsed().as_secs_f64());
         let numbers = [iteration.objective, iteration.feasibility, iteration.optimality, iteration.step_norm, seconds];
         row.extend(numbers.map(exact));
+        row.push(attempt.to_string());
         if self.with_variables {
             row.extend(iteration.x.iter().copied().map(exact));
         }
@@ -112,6 +134,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("log-argmin.csv");
         let mut log = IterationLog::create(&path, x.len(), |j| format!("x[{}], in m", j + 1)).unwrap();
+        log.begin();
         let row =
             Iteration { iteration: 3, evaluations: 7, objective, feasibility: 0.1, optimality: f64::NAN, step_norm: 0.2, x };
         log.add(&row);
@@ -143,6 +166,30 @@ mod tests {
                 prop_assert_eq!(text.len(), format!("{value:?}").len());
             }
         }
+    }
+
+    #[test]
+    fn attempts_are_numbered_and_end_with_their_answers() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let mut log = IterationLog::create(file.path(), 1, |_| "x".into()).unwrap();
+        let row = |x: &'static [f64]| Iteration {
+            iteration: 1,
+            evaluations: 1,
+            objective: 0.0,
+            feasibility: 0.0,
+            optimality: 0.0,
+            step_norm: 0.0,
+            x,
+        };
+        for attempt in 0..2 {
+            log.begin();
+            log.add(&row(if attempt == 0 { &[1.0] } else { &[2.0] }));
+        }
+        assert!(!log.close(2, &row(&[2.0])) && log.close(1, &row(&[1.5])));
+        let mut reader = csv::Reader::from_path(file.path()).unwrap();
+        let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+        let shown: Vec<_> = rows.iter().map(|row| (row[7].to_string(), row[8].to_string())).collect();
+        assert_eq!(shown, [("1", "1.0"), ("2", "2.0"), ("1", "1.5")].map(|(a, b)| (a.to_string(), b.to_string())));
     }
 
     #[test]

@@ -141,7 +141,7 @@ impl<'a> Referee<'a> {
         }
         let certificate = judged.ok();
         let objective = certificate.as_ref().map(|certificate| certificate.objective);
-        Answer { backend: contestant.backend.name(), solution, objective, certificate, remarks }
+        Answer { backend: contestant.backend.name(), attempt: 1, solution, objective, certificate, remarks }
     }
 
     /// Whether an answer meets all rows and bounds.

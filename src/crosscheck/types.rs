@@ -69,6 +69,8 @@ impl Status {
 pub struct Answer {
     /// Name of the backend.
     pub backend: &'static str,
+    /// Which of the backend's runs it is of, counted from 1 as their observers were made.
+    pub attempt: usize,
     /// What it brought back; x in the user's variables.
     pub solution: Solution,
     /// f(x), where it has a value.

@@ -20,6 +20,7 @@ mod ratio;
 pub mod resolve;
 pub mod settings;
 pub mod texts;
+pub mod words;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -59,6 +60,8 @@ pub struct Problem {
     pub ribs: Ribs,
     /// Constraint declarations, in the file's order.
     pub constraints: Vec<Constraint>,
+    /// The parameter `density`, which gives mass to volume in reports.
+    pub density: Option<f64>,
     /// `[solver]`.
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.

@@ -53,7 +53,7 @@ fn outcome() -> Outcome {
         invalid: None,
     };
     let answer =
-        Answer { backend: "argmin", solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
+        Answer { backend: "argmin", attempt: 1, solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,

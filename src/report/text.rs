@@ -1,6 +1,9 @@
 //! Plain text tables with aligned columns.
 
+use std::borrow::Cow;
 use std::fmt;
+
+pub use crate::problem::words::count;
 
 /// A table for people: a header, rows, columns as wide as they need.
 #[derive(Debug, Clone, Default)]
@@ -13,12 +16,12 @@ pub struct TextTable {
 impl TextTable {
     /// A table whose first `left` columns are aligned to the left (names), the others to the right (numbers).
     pub fn new(left: usize, header: &[&str]) -> TextTable {
-        TextTable { header: header.iter().map(|&title| title.into()).collect(), rows: Vec::new(), left }
+        TextTable { header: header.iter().map(|&title| shown(title)).collect(), rows: Vec::new(), left }
     }
 
-    /// Adds a row.
+    /// Adds a row; names in it are shown as a line can take them.
     pub fn add(&mut self, row: Vec<String>) {
-        self.rows.push(row);
+        self.rows.push(row.iter().map(|cell| shown(cell)).collect());
     }
 
     /// True without rows.
@@ -52,17 +55,54 @@ impl fmt::Display for TextTable {
     }
 }
 
-/// `1 variable`, `3 variables`.
-pub fn count(number: usize, one: &str) -> String {
-    if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
+/// Characters of a name or a text shown in a line of a table.
+const LONGEST: usize = 60;
+
+/// A text of the user's as it may stand in a line: no control characters, no marks that turn the direction of writing, and not
+/// longer than a line can take.
+///
+/// ```
+/// use ribopt::report::text::shown;
+/// assert_eq!(shown("\u{1b}[31mred\nline"), "\u{fffd}[31mred\u{fffd}line");
+/// assert_eq!(shown(&"y".repeat(70_000)).chars().count(), 60);
+/// ```
+pub fn shown(text: &str) -> String {
+    let long = text.chars().nth(LONGEST).is_some();
+    let kept = if long { LONGEST - 1 } else { LONGEST };
+    let mut shown: String = plain(text).chars().take(kept).collect();
+    if long {
+        shown.push('…');
+    }
+    shown
+}
+
+/// A text whose characters all show, none acts on a terminal; line breaks too become signs.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    if text.chars().any(acts) { text.chars().map(|c| if acts(c) { '\u{fffd}' } else { c }).collect() } else { text.into() }
+}
+
+/// Control characters, and those that change the direction of what follows.
+fn acts(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A name as a cell of a table that a spreadsheet may open: what would begin a formula there is quoted by an apostrophe.
+///
+/// ```
+/// use ribopt::report::text::cell;
+/// assert_eq!(cell("=cmd|'/c calc'!A1"), "'=cmd|'/c calc'!A1");
+/// assert_eq!(cell("support.b"), "support.b");
+/// ```
+pub fn cell(name: &str) -> Cow<'_, str> {
+    if name.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{name}").into() } else { name.into() }
 }
 
 /// The first few names, and how many more there are.
 pub fn listing(names: impl ExactSizeIterator<Item = String>, most: usize) -> String {
     let all = names.len();
-    let shown: Vec<String> = names.take(most).collect();
-    let more = if all > shown.len() { format!(", … ({} more)", all - shown.len()) } else { String::new() };
-    format!("{}{more}", shown.join(", "))
+    let first: Vec<String> = names.take(most).map(|name| shown(&name)).collect();
+    let more = if all > first.len() { format!(", … ({} more)", all - first.len()) } else { String::new() };
+    format!("{}{more}", first.join(", "))
 }
 
 #[cfg(test)]
