@@ -7,12 +7,22 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::backends::Iteration;
+use crate::problem::words::cell;
 
 /// Up to this many variables, each has a column of its own.
 pub const MOST_VARIABLE_COLUMNS: usize = 50;
 
 const COLUMNS: [&str; 8] =
     ["iteration", "evaluations", "objective", "feasibility", "optimality", "step_norm", "seconds", "attempt"];
+
+/// One of a backend's runs.
+#[derive(Debug)]
+struct Attempt {
+    /// Which call of [`IterationLog::begin`] it is of.
+    of: usize,
+    iteration: Option<u64>,
+    last: Vec<f64>,
+}
 
 /// `log-<backend>.csv` while the run goes on.
 ///
@@ -24,8 +34,9 @@ pub struct IterationLog {
     file: File,
     with_variables: bool,
     begun: Option<Instant>,
-    /// The last point of each attempt.
-    last: Vec<Vec<f64>>,
+    attempts: Vec<Attempt>,
+    /// How often [`IterationLog::begin`] was called.
+    begun_times: usize,
     failure: Option<io::Error>,
 }
 
@@ -38,31 +49,49 @@ impl IterationLog {
         let with_variables = variables <= MOST_VARIABLE_COLUMNS;
         let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
         if with_variables {
-            header.extend((0..variables).map(name));
+            header.extend((0..variables).map(|j| cell(&name(j)).into_owned()));
         }
         let mut file = File::create(path)?;
         write_row(&mut file, &header)?;
-        Ok(IterationLog { path: path.into(), file, with_variables, begun: None, last: Vec::new(), failure: None })
+        Ok(IterationLog { path: path.into(), file, with_variables, begun: None, attempts: Vec::new(), begun_times: 0, failure: None })
     }
 
     /// The backend begins anew: further rows are of the next attempt. Seconds count from the first.
     pub fn begin(&mut self) {
         self.begun.get_or_insert_with(Instant::now);
-        self.last.push(Vec::new());
+        self.begun_times += 1;
+        self.attempts.push(Attempt { of: self.begun_times, iteration: None, last: Vec::new() });
     }
 
-    /// Adds a row.
-    pub fn add(&mut self, iteration: &Iteration<'_>) {
-        if let Some(last) = self.last.last_mut() {
-            last.clear();
-            last.extend_from_slice(iteration.x);
+    /// Adds a row; brings back its attempt. A backend that counts its iterations anew has begun another attempt by itself.
+    pub fn add(&mut self, iteration: &Iteration<'_>) -> usize {
+        let again = |attempt: &Attempt| attempt.iteration.is_some_and(|before| iteration.iteration <= before);
+        if self.attempts.last().is_none_or(again) {
+            self.attempts.push(Attempt { of: self.begun_times, iteration: None, last: Vec::new() });
         }
-        self.row(self.last.len(), iteration);
+        if let Some(attempt) = self.attempts.last_mut() {
+            attempt.iteration = Some(iteration.iteration);
+            attempt.last.clear();
+            attempt.last.extend_from_slice(iteration.x);
+        }
+        self.row(self.attempts.len(), iteration);
+        self.attempts.len()
+    }
+
+    /// The attempt, counted as its rows are, that brought back the point x after call number `begun` of
+    /// [`IterationLog::begin`]: the one whose last row is nearest. 0 where none has rows.
+    pub fn attempt(&self, begun: usize, x: &[f64]) -> usize {
+        let distance = |attempt: &Attempt| {
+            let apart = |(a, b): (&f64, &f64)| (a - b).abs() / a.abs().max(b.abs()).max(f64::MIN_POSITIVE);
+            x.iter().zip(&attempt.last).map(apart).fold(0.0, f64::max)
+        };
+        let of = self.attempts.iter().enumerate().filter(|(_, attempt)| attempt.of == begun && !attempt.last.is_empty());
+        of.map(|(at, attempt)| (distance(attempt), at + 1)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, number)| number)
     }
 
     /// Adds the point an attempt brought back, unless its last row is that already; brings back whether it did.
     pub fn close(&mut self, attempt: usize, answer: &Iteration<'_>) -> bool {
-        let known = attempt.checked_sub(1).and_then(|at| self.last.get(at)).is_some_and(|last| last == answer.x);
+        let known = attempt.checked_sub(1).and_then(|at| self.attempts.get(at)).is_some_and(|one| one.last == answer.x);
         if !known {
             self.row(attempt, answer);
         }
@@ -183,13 +212,15 @@ mod tests {
         };
         for attempt in 0..2 {
             log.begin();
-            log.add(&row(if attempt == 0 { &[1.0] } else { &[2.0] }));
+            assert_eq!(log.add(&row(if attempt == 0 { &[1.0] } else { &[2.0] })), attempt + 1);
         }
+        assert_eq!(log.add(&row(&[3.0])), 3, "iterations are counted anew");
+        assert_eq!([log.attempt(1, &[1.1]), log.attempt(2, &[2.1]), log.attempt(2, &[2.9]), log.attempt(3, &[0.0])], [1, 2, 3, 0]);
         assert!(!log.close(2, &row(&[2.0])) && log.close(1, &row(&[1.5])));
         let mut reader = csv::Reader::from_path(file.path()).unwrap();
         let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
         let shown: Vec<_> = rows.iter().map(|row| (row[7].to_string(), row[8].to_string())).collect();
-        assert_eq!(shown, [("1", "1.0"), ("2", "2.0"), ("1", "1.5")].map(|(a, b)| (a.to_string(), b.to_string())));
+        assert_eq!(shown, [("1", "1.0"), ("2", "2.0"), ("3", "3.0"), ("1", "1.5")].map(|(a, b)| (a.to_string(), b.to_string())));
     }
 
     #[test]

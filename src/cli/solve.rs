@@ -76,9 +76,6 @@ fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Fai
     }
     output::print(|out| {
         summary::write(&findings, out)?;
-        if let Some(table) = &solved.utilisation {
-            table.write(out)?;
-        }
         match &solved.unwritten {
             None => writeln!(out, "logs and results: {}", solved.folder().display()),
             Some(_) => Ok(()),

@@ -104,6 +104,11 @@ fn open_variable(field: &Field) -> VariableEntry {
 
 /// `lower`, `upper` and `start` of a table.
 fn range<T>(fields: &mut Fields, value: impl Fn(&Field, &mut Reader) -> Option<T>, reader: &mut Reader) -> Range<T> {
-    let mut one = |key| fields.take(key).and_then(|field| value(&field, reader));
+    let mut one = |key| {
+        reader.bounds = key != "start";
+        let read = fields.take(key).and_then(|field| value(&field, reader));
+        reader.bounds = false;
+        read
+    };
     Range { lower: one("lower"), upper: one("upper"), start: one("start") }
 }

@@ -93,7 +93,7 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
     checksum.update(&bytes);
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let declared = declare::declare(document.get_ref(), &mut Reader { source: &source, findings: &mut findings });
+    let declared = declare::declare(document.get_ref(), &mut Reader { bounds: false, source: &source, findings: &mut findings });
     if !errors.is_empty() {
         syntax(&source, &errors, &mut findings);
         return Err(findings.into_parts(&source, overrides).0);

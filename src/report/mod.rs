@@ -86,6 +86,10 @@ pub struct Findings<'a> {
     pub outcome: &'a Outcome,
     /// Volumes at the reported point, where there are ribs.
     pub volumes: Option<Volumes>,
+    /// Mass of all ribs there, where each has a density.
+    pub mass: Option<f64>,
+    /// How far the limits are used there.
+    pub utilisation: Option<&'a utilisation::Table>,
 }
 
 /// One row, or the bounds of one variable, at the reported point and in the user's sense.

@@ -1,9 +1,8 @@
 //! Plain text tables with aligned columns.
 
-use std::borrow::Cow;
 use std::fmt;
 
-pub use crate::problem::words::count;
+pub use crate::problem::words::{cell, count, plain, shown, shortened};
 
 /// A table for people: a header, rows, columns as wide as they need.
 #[derive(Debug, Clone, Default)]
@@ -53,48 +52,6 @@ impl fmt::Display for TextTable {
         }
         Ok(())
     }
-}
-
-/// Characters of a name or a text shown in a line of a table.
-const LONGEST: usize = 60;
-
-/// A text of the user's as it may stand in a line: no control characters, no marks that turn the direction of writing, and not
-/// longer than a line can take.
-///
-/// ```
-/// use ribopt::report::text::shown;
-/// assert_eq!(shown("\u{1b}[31mred\nline"), "\u{fffd}[31mred\u{fffd}line");
-/// assert_eq!(shown(&"y".repeat(70_000)).chars().count(), 60);
-/// ```
-pub fn shown(text: &str) -> String {
-    let long = text.chars().nth(LONGEST).is_some();
-    let kept = if long { LONGEST - 1 } else { LONGEST };
-    let mut shown: String = plain(text).chars().take(kept).collect();
-    if long {
-        shown.push('…');
-    }
-    shown
-}
-
-/// A text whose characters all show, none acts on a terminal; line breaks too become signs.
-pub fn plain(text: &str) -> Cow<'_, str> {
-    if text.chars().any(acts) { text.chars().map(|c| if acts(c) { '\u{fffd}' } else { c }).collect() } else { text.into() }
-}
-
-/// Control characters, and those that change the direction of what follows.
-fn acts(c: char) -> bool {
-    c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
-/// A name as a cell of a table that a spreadsheet may open: what would begin a formula there is quoted by an apostrophe.
-///
-/// ```
-/// use ribopt::report::text::cell;
-/// assert_eq!(cell("=cmd|'/c calc'!A1"), "'=cmd|'/c calc'!A1");
-/// assert_eq!(cell("support.b"), "support.b");
-/// ```
-pub fn cell(name: &str) -> Cow<'_, str> {
-    if name.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{name}").into() } else { name.into() }
 }
 
 /// The first few names, and how many more there are.

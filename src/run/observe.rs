@@ -57,15 +57,16 @@ impl Records {
                 watcher.borrow_mut().iteration(&in_users_sense);
             })
         };
-        let outcome = crosscheck::run(task, &backends, &mut observe);
+        let mut outcome = crosscheck::run(task, &backends, &mut observe);
         watcher.borrow_mut().end();
-        self.close(&outcome);
+        self.close(&mut outcome);
         outcome
     }
 
-    /// A solver's last row need not be the point it brought back, as that was polished, or put onto bounds: then it is added.
-    fn close(&self, outcome: &Outcome) {
-        for (record, answer) in self.records.iter().zip(&outcome.answers) {
+    /// Numbers the answers' attempts as the logs do. A solver's last row need not be the point it brought back, as that was polished, or put onto bounds: then it is added.
+    fn close(&self, outcome: &mut Outcome) {
+        for (record, answer) in self.records.iter().zip(&mut outcome.answers) {
+            answer.attempt = record.borrow().log.attempt(answer.attempt, &answer.solution.x);
             let Some(certificate) = &answer.certificate else { continue };
             let iteration = Iteration {
                 iteration: answer.solution.iterations.unwrap_or(0),
@@ -96,17 +97,16 @@ impl Records {
 impl Record {
     fn begin(&mut self) {
         self.log.begin();
-        self.trace.begin();
     }
 
     fn add(&mut self, iteration: &Iteration<'_>) {
-        self.log.add(iteration);
-        self.trace.add([iteration.objective, iteration.feasibility, iteration.optimality]);
+        let attempt = self.log.add(iteration);
+        self.trace.add(attempt, [iteration.objective, iteration.feasibility, iteration.optimality]);
     }
 
     fn close(&mut self, attempt: usize, iteration: &Iteration<'_>) {
         if self.log.close(attempt, iteration) {
-            self.trace.close(attempt, [iteration.objective, iteration.feasibility, iteration.optimality]);
+            self.trace.add(attempt, [iteration.objective, iteration.feasibility, iteration.optimality]);
         }
     }
 }

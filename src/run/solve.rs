@@ -39,6 +39,8 @@ pub struct Solved {
     pub outcome: Outcome,
     /// Volumes at the reported point.
     pub volumes: Option<Volumes>,
+    /// Mass of all ribs there, where each has a density.
+    pub mass: Option<f64>,
     /// How far every limit is used, where all have values.
     pub utilisation: Option<utilisation::Table>,
     /// Why files could not be written: the answer is to be shown first.
@@ -56,6 +58,8 @@ impl Solved {
             class: subject.class,
             outcome: &self.outcome,
             volumes: self.volumes,
+            mass: self.mass,
+            utilisation: self.utilisation.as_ref(),
         }
     }
 
@@ -93,7 +97,10 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
     let (volumes, utilisation) = (subject.volumes(&outcome.x), utilisation::table(subject, &outcome.x).ok());
-    let findings = Findings { about: &about, model: subject.model(), class: subject.class, outcome: &outcome, volumes };
+    let mass = sizes::mass(subject.problem(), &outcome.x);
+    let (model, class) = (subject.model(), subject.class);
+    let findings =
+        Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     let ending = Ending {
         sha256: &about.sha256,
         cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached),
@@ -112,7 +119,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         }
         Ok(())
     });
-    Ok(Solved { outcome, volumes, utilisation, unwritten: written.err(), place, _locked: locked, about })
+    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
 }
 
 fn starting_point(

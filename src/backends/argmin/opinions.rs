@@ -2,7 +2,7 @@
 
 use super::interior_point::{InteriorPoint, towards_middle};
 use super::{Finished, run};
-use crate::backends::{Iteration, Job};
+use crate::backends::Job;
 use crate::math::split_mix::SplitMix;
 use crate::model::{Evaluator, Meta, Model};
 
@@ -15,7 +15,7 @@ const SEEDS: [u64; 2] = [1, 2];
 
 /// The better of `found` and what other starts lead to, as far as the stop test passes there. Nothing is tried where `found`
 /// does not pass itself: that is for second tries to mend.
-pub(super) fn better<'a>(evaluator: &'a Evaluator<'a>, job: &Job<'_>, mut found: Finished) -> Finished {
+pub(super) fn better<'a>(evaluator: &'a Evaluator<'a>, job: &mut Job<'_>, mut found: Finished) -> Finished {
     let meta = evaluator.meta();
     let linear = meta.objective_is_linear && meta.row_is_linear.iter().all(|&linear| linear);
     let Some(passes) = job.stop_test else { return found };
@@ -24,9 +24,8 @@ pub(super) fn better<'a>(evaluator: &'a Evaluator<'a>, job: &Job<'_>, mut found:
     }
     let Ok(mut lowest) = evaluator.objective(&found.x) else { return found };
     for start in starts(meta, job.start) {
-        let mut unobserved = |_: &Iteration<'_>| {};
-        let mut aside =
-            Job { start: &start, start_multipliers: None, max_iterations: ITERATIONS, observer: &mut unobserved, ..*job };
+        let observer = &mut *job.observer;
+        let mut aside = Job { start: &start, start_multipliers: None, max_iterations: ITERATIONS, observer, ..*job };
         let other = run(InteriorPoint::new(start.clone(), None), evaluator, &mut aside);
         let Ok(objective) = evaluator.objective(&other.x) else { continue };
         if objective < lowest - 1e-9 * lowest.abs() && passes(&other.x) {

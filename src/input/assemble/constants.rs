@@ -103,10 +103,11 @@ impl Assembly<'_> {
                 None => self.constants(numbers),
             };
         }
-        overrides
-            .unknown_parameters(|name| matches!(self.names.find(&self.problem, name), Some(Entity::Parameter(_))))
-            .into_iter()
-            .for_each(|(place, name)| self.unknown_override(place, &name));
+        let density = self.names.find(&self.problem, "density");
+        self.problem.density = match density.and_then(|entity| if let Entity::Parameter(p) = entity { self.parameters[p as usize].as_ref() } else { None }) {
+            Some(Value::Scalar(Formula::Constant(value))) => Some(*value),
+            _ => None,
+        };
     }
 
     fn parameters_in(&self, numbers: &Numbers) -> Vec<u32> {

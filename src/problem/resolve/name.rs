@@ -56,11 +56,20 @@ impl<'a> Resolver<'a, '_> {
         };
         if let [name] = parts
             && let Some(entity) = self.world.names.find(self.world.problem, name)
+            && !self.is_the_same(entity, name)
         {
             let message = format!("`{name}` is the item's own here and hides the {} of this name", entity.word());
             self.warning(span, message, "rename one of the two");
         }
         Some(Some(found))
+    }
+
+    /// Whether every section here is linked to the variable by this very name, `tw = "tw"`: then both mean the same.
+    fn is_the_same(&self, entity: Entity, name: &str) -> bool {
+        let (Some(scope), Entity::Variable(entry)) = (self.scope, entity) else { return false };
+        let Some(&(variable, None)) = self.world.variables.get(entry as usize) else { return false };
+        let linked = |&s: &u32| self.world.problem.given_dimension(s, name) == Some(Dimension::Variable(variable));
+        scope.collection == Collection::Sections && scope.members.iter().all(linked)
     }
 
     /// The item's data column of this name.

@@ -41,20 +41,11 @@ impl Trace {
         Trace { backend: backend.into(), runs: Vec::new(), chosen: 1 }
     }
 
-    /// The backend begins anew.
-    pub fn begin(&mut self) {
-        self.runs.push(Run { rows: Vec::new(), seen: 0, stride: 1 });
-    }
-
-    /// Adds an iteration: objective, feasibility, optimality.
-    pub fn add(&mut self, row: [f64; 3]) {
-        if let Some(run) = self.runs.last_mut() {
-            run.add(row);
+    /// Adds an iteration of run number `attempt`, from 1: objective, feasibility, optimality.
+    pub fn add(&mut self, attempt: usize, row: [f64; 3]) {
+        while self.runs.len() < attempt {
+            self.runs.push(Run { rows: Vec::new(), seen: 0, stride: 1 });
         }
-    }
-
-    /// Adds the point that run number `attempt` brought back.
-    pub fn close(&mut self, attempt: usize, row: [f64; 3]) {
         if let Some(run) = attempt.checked_sub(1).and_then(|at| self.runs.get_mut(at)) {
             run.add(row);
         }
@@ -111,9 +102,8 @@ impl Run {
 /// ```
 /// use ribopt::report::{About, pictures::{Trace, convergence}};
 /// let mut trace = Trace::new("nlopt");
-/// trace.begin();
-/// trace.add([3.0, 0.1, 1.0]);
-/// trace.add([2.0, 1e-12, 1e-9]);
+/// trace.add(1, [3.0, 0.1, 1.0]);
+/// trace.add(1, [2.0, 1e-12, 1e-9]);
 /// let svg = convergence(&[trace], &About::default(), Some(2.0));
 /// assert!(svg.contains("nlopt") && svg.contains("first-order optimality"));
 /// ```
@@ -173,9 +163,8 @@ mod tests {
     #[test]
     fn long_runs_are_thinned_and_nothing_is_no_number() {
         let mut trace = Trace::new("argmin");
-        trace.begin();
         for k in 1..=20_000 {
-            trace.add([1.0 / f64::from(k), 0.0, f64::NAN]);
+            trace.add(1, [1.0 / f64::from(k), 0.0, f64::NAN]);
         }
         assert!(trace.rows().len() <= MOST && trace.rows().len() > MOST / 4);
         let svg = convergence(&[trace], &About::default(), Some(0.0));
@@ -191,11 +180,10 @@ mod tests {
     #[test]
     fn the_run_that_gave_the_answer_is_drawn() {
         let mut trace = Trace::new("argmin");
-        for rows in [5, 2] {
-            trace.begin();
-            (0..rows).for_each(|_| trace.add([1.0, 1.0, 1.0]));
+        for (attempt, rows) in [(1, 5), (2, 2)] {
+            (0..rows).for_each(|_| trace.add(attempt, [1.0, 1.0, 1.0]));
         }
-        trace.close(2, [0.5, 0.0, 0.0]);
+        trace.add(2, [0.5, 0.0, 0.0]);
         assert_eq!(trace.clone().of(2).name(), "argmin, run 2 of 2, 3 rows");
         assert_eq!(trace.clone().of(1).rows().len(), 5);
         assert!(trace.of(7).name().contains("no rows"));

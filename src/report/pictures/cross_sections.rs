@@ -125,7 +125,7 @@ fn draw_cell(canvas: &mut Canvas, cell: &Cell, [left, top]: [f64; 2], size: f64,
     let name = if enlarged { format!("{} (enlarged {}-fold)", cell.name, significant(largest / own, 2)) } else { cell.name.clone() };
     let letters = size / 6.6;
     canvas.text(middle[0], top + size + 8.0, "middle", &cut(&name, letters));
-    canvas.note(middle[0], top + size + 24.0, "middle", &cut(&cell.dimensions.join("  "), letters));
+    canvas.note(middle[0], top + size + 24.0, "middle", &cut(&cell.dimensions.join(", "), letters));
 }
 
 fn width_line(canvas: &mut Canvas, [x0, x1]: [f64; 2], y: f64, value: f64) {
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn holes_are_rings_of_one_path_and_dimensions_are_told() {
         let svg = cross_section(&[tube("pipe", 0.2, 0.01)], false);
-        assert!(svg.contains("d 0.2  t 0.01") && svg.contains("ZM") && !svg.contains("NaN"), "{svg}");
+        assert!(svg.contains("d 0.2, t 0.01") && svg.contains("ZM") && !svg.contains("NaN"), "{svg}");
         assert!(cross_section(&[tube("pipe", 0.2, 0.01)], true).contains("at the start, not at an answer"));
     }
 

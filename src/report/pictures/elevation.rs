@@ -10,7 +10,7 @@ use crate::report::cross_section::CrossSection;
 use crate::report::number::significant;
 
 /// Lines drawn at the most, and ribs of each.
-const MOST_CHAINS: usize = 8;
+const MOST_CHAINS: usize = 12;
 const MOST_RIBS: usize = 400;
 
 /// Pixels one line takes: two panels side by side.
@@ -46,7 +46,7 @@ fn line(canvas: &mut Canvas, problem: &Problem, about: &About, chain: &Chain, to
         1 => ", 1 rib".into(),
         number => format!(", {number} ribs"),
     };
-    canvas.text(20.0, top + 14.0, "start", &cut(&format!("{}{ribs}", chain.name), 90.0));
+    canvas.text(80.0, top + 14.0, "start", &cut(&format!("{}{ribs}", chain.name), 60.0));
     for (at, (property, what)) in [("height", "height"), ("width", "width")].into_iter().enumerate() {
         let [before, after] = points.map(|x| extents(problem, &stations, x, property));
         let reach = before.iter().chain(&after).map(|[_, extent]| extent / 2.0).filter(|reach| reach.is_finite());
@@ -55,8 +55,11 @@ fn line(canvas: &mut Canvas, problem: &Problem, about: &About, chain: &Chain, to
         let left = 80.0 + 425.0 * at as f64;
         let panel = Panel { left, top: top + 24.0, width: 340.0, height: 118.0, x, y };
         let times = panel.exaggeration();
-        let note = if (0.95..1.05).contains(&times) { String::new() } else { format!(" (drawn {}-fold)", significant(times, 2)) };
-        panel.draw_extent(canvas, &with_unit("along the line", about), &format!("{}{note}", with_unit(what, about)));
+        if !(0.95..1.05).contains(&times) {
+            let note = format!("{what} drawn {}-fold", significant(times, 2));
+            canvas.note(left + 340.0, top + 18.0, "end", &note);
+        }
+        panel.draw_extent(canvas, &with_unit("along the line", about), &with_unit(what, about));
         for (extents, style) in [(before, BEFORE), (after, AFTER)] {
             let edge = |sign: f64| extents.iter().map(move |[at, extent]| [*at, sign * extent / 2.0]);
             let around = edge(1.0).chain(edge(-1.0).rev()).map(|point| panel.at(point));
