@@ -68,6 +68,16 @@ pub fn open(path: &Path) -> io::Result<Limited> {
     Ok(Limited { source: Box::new(file), left: u64::MAX, length: Some(metadata.len()) })
 }
 
+/// All of a file, as [`open`] opens it.
+///
+/// # Errors
+/// Those of [`open`] and of reading.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -11,6 +11,9 @@ use crate::expression::operators::{Binary, Fold, Unary};
 /// Pieces a row may fall into; beyond this its kinks stay.
 const MOST_PIECES: usize = 256;
 
+/// Definitions looked into one inside another, in search of kinks.
+const DEFINITIONS: usize = 16;
+
 /// The variable that bounds an objective of pieces.
 pub const OBJECTIVE_BOUND: &str = "objective_bound";
 
@@ -20,6 +23,31 @@ impl Problem {
         self.split_objective();
         self.constraints = std::mem::take(&mut self.constraints).into_iter().flat_map(split).collect();
         self
+    }
+
+    /// What keeps a min, max or abs: the objective, or constraints by name.
+    pub fn kinks(&self) -> Vec<String> {
+        let objective = self.bends(&self.objective, 0).then(|| "the objective".to_owned());
+        let bent = |row: &&Constraint| self.bends(&row.left, 0) || row.right.formulas().any(|formula| self.bends(formula, 0));
+        let rows = self.constraints.iter().filter(bent).map(|row| format!("`{}`", row.name));
+        objective.into_iter().chain(rows).collect()
+    }
+
+    /// Whether there is a kink in a formula or the definitions it uses.
+    fn bends(&self, formula: &Formula, depth: usize) -> bool {
+        let go = |formula: &Formula| self.bends(formula, depth);
+        match formula {
+            Formula::Unary(Unary::Abs, _) | Formula::Binary(Binary::Min | Binary::Max, ..) => true,
+            Formula::Fold(Fold::Min | Fold::Max, _) | Formula::Over { fold: Fold::Min | Fold::Max, .. } => true,
+            Formula::Unary(_, inner) | Formula::Profile(_, inner) => go(inner),
+            Formula::Binary(_, left, right) => go(left) || go(right),
+            Formula::Fold(_, list) => list.iter().any(go),
+            Formula::Over { body, .. } => go(body),
+            Formula::Definition(d) if depth < DEFINITIONS => {
+                self.definitions.get(*d as usize).is_some_and(|(_, inner)| self.bends(inner, depth + 1))
+            }
+            _ => false,
+        }
     }
 
     fn split_objective(&mut self) {

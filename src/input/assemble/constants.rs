@@ -73,6 +73,8 @@ impl Assembly<'_> {
     /// The numbers of a constant: one, or an array's.
     pub(super) fn constants(&mut self, numbers: &Numbers) -> Option<Value> {
         match numbers {
+            // Stands for a mistake that was told already.
+            Numbers::One(Scalar::Number(value, _)) if value.is_nan() => None,
             Numbers::One(Scalar::Number(value, _)) => Some(Value::Scalar(Formula::Constant(*value))),
             Numbers::One(Scalar::Expression(written)) => {
                 let ast = self.parsed(written, parse)?;

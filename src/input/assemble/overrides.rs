@@ -80,7 +80,9 @@ impl Assembly<'_> {
         }
         if let Some(variables) = self.variables_named(&set.name) {
             let table = &mut self.problem.variables;
-            [&mut table.lower, &mut table.upper, &mut table.start].map(|column| column[variables.clone()].fill(set.value));
+            for column in [&mut table.lower, &mut table.upper, &mut table.start] {
+                column[variables.clone()].fill(set.value);
+            }
             if let Some((_, dimension)) = set.name.rsplit_once('.') {
                 self.positive(dimension, set.value, set.place);
             }
