@@ -23,9 +23,9 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     let settings = &mut subject.settings;
     settings.max_seconds = (settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
     output::tell(&subject.warnings);
-    let network = network(arguments, &subject)?;
     let start = arguments.start.as_deref().map(EarlierAnswer::read).transpose().map_err(RunError::from)?;
     let inputs = inputs(arguments, &subject)?;
+    let network = network(arguments, &subject)?;
     let request = Request {
         choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
         out: arguments.out.as_deref(),

@@ -22,6 +22,7 @@ fn about(sense: Sense) -> About {
         units: vec![("length".into(), "m".into())],
         has_sections: true,
         warnings: Vec::new(),
+        changes: Vec::new(),
     }
 }
 

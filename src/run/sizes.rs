@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Subject;
 use super::results::Writer;
+use super::solve::MOST_LISTED;
 use crate::expression::ast::Collection;
 use crate::model::{EvaluationError, Model, assemble};
 use crate::problem::evaluate::{Evaluation, Item};
@@ -25,11 +26,11 @@ const MOST_PROPERTIES: usize = 5_000;
 /// Whatever the file system says.
 pub(super) fn leave(subject: &Subject, x: &[f64], files: &mut Writer) -> io::Result<()> {
     let problem = subject.problem();
-    if !problem.sections.names.is_empty() {
+    if (1..=MOST_LISTED).contains(&problem.sections.names.len()) {
         files.file("sizes.csv", |out| sizes::write(all_sizes(problem, x), out))?;
     }
-    if let Ok(volumes) = rib_volumes(problem, x, None)
-        && !volumes.is_empty()
+    if (1..=MOST_LISTED).contains(&problem.ribs.names.len())
+        && let Ok(volumes) = rib_volumes(problem, x, None)
     {
         files.file("volumes.csv", |out| sizes::write_volumes(lines(problem, &volumes), out))?;
     }

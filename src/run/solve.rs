@@ -13,6 +13,9 @@ use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
 
+/// Rows, sections or ribs up to which utilisation, sizes and volumes are listed: beyond, the lists would take as long as the run.
+pub(super) const MOST_LISTED: usize = 300_000;
+
 /// What is asked of a run, besides the problem.
 pub struct Request<'a> {
     /// Backends and algorithms.
@@ -96,7 +99,9 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let outcome = records.watch(&task, &request.choices, watcher);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
-    let (volumes, utilisation) = (subject.volumes(&outcome.x), utilisation::table(subject, &outcome.x).ok());
+    let volumes = subject.volumes(&outcome.x);
+    let few_rows = subject.model().meta().rows() <= MOST_LISTED;
+    let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
     let mass = sizes::mass(subject.problem(), &outcome.x);
     let (model, class) = (subject.model(), subject.class);
     let findings =

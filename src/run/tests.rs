@@ -10,6 +10,7 @@ use super::compare::compare;
 use super::solve::{Request, solve};
 use super::verify::verify;
 use super::*;
+use crate::report::answer::EarlierAnswer;
 use crate::crosscheck::Status;
 use crate::problem::formula::Total;
 use crate::problem::{
@@ -64,9 +65,9 @@ fn subject() -> Subject {
     Subject::assemble(rib(), Path::new("rib.toml"), "00".into()).unwrap()
 }
 
-fn request<'a>(subject: &Subject, out: &'a Path) -> Request<'a> {
+fn request<'a>(subject: &'a Subject, out: &'a Path) -> Request<'a> {
     let choices = choose(&[], None, &subject.settings).unwrap();
-    Request { choices, out: Some(out), start: None, starts: 1, plot: false, interrupt: None }
+    Request { choices, out: Some(out), start: None, inputs: &subject.inputs, starts: 1, plot: false, interrupt: None }
 }
 
 #[test]
@@ -89,6 +90,7 @@ fn an_earlier_answer_is_a_start() {
     let (subject, folder) = (subject(), tempfile::tempdir().unwrap());
     drop(solve(&subject, &request(&subject, folder.path()), &mut ()).unwrap());
     let (earlier, again) = (folder.path().join("result.json"), folder.path().join("again"));
+    let earlier = EarlierAnswer::read(&earlier).unwrap();
     let request = Request { start: Some(&earlier), ..request(&subject, &again) };
     assert_eq!(solve(&subject, &request, &mut ()).unwrap().outcome.status, Status::Certified);
 }

@@ -61,11 +61,13 @@ pub(super) struct Assembly<'a> {
     without: Without,
 }
 
-/// Tables that could not be read to their ends: what is missing for that reason is no further mistake.
+/// What tables could not give: what is missing for that reason is no further mistake.
 #[derive(Default)]
 struct Without {
+    /// Some of the sections, as rows were passed over.
     sections: bool,
-    ribs: bool,
+    /// A whole table.
+    table: bool,
 }
 
 /// Puts the problem together, reading the tables on the way.
@@ -85,7 +87,7 @@ pub(super) fn assemble(
     assembly.items(&declared);
     assembly.tables(&declared, tables);
     assembly.finish_items();
-    if assembly.without.sections || assembly.without.ribs {
+    if assembly.without.table {
         // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
         assembly.grammar(&declared);
         return (assembly.problem, assembly.findings);

@@ -24,8 +24,8 @@ impl Assembly<'_> {
     }
 
     fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
-        // Until the end is reached.
-        self.without.sections = true;
+        // Until the columns are known.
+        (self.without.sections, self.without.table) = (true, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
         while let Some(row) = table.next(&mut self.findings) {
@@ -33,6 +33,7 @@ impl Assembly<'_> {
         }
         table.say_how(&mut self.findings);
         self.without.sections = table.ragged;
+        self.without.table = table.ragged && self.problem.sections.names.is_empty();
     }
 
     fn section_row(&mut self, row: &Row, columns: &SectionColumns) {
@@ -96,14 +97,14 @@ impl Assembly<'_> {
     }
 
     fn rib_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
-        self.without.ribs = true;
+        let before = std::mem::replace(&mut self.without.table, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = RibColumns::of(&table, self) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.rib_row(&row, &columns);
         }
         table.say_how(&mut self.findings);
-        self.without.ribs = table.ragged;
+        self.without.table = before || (table.ragged && self.problem.ribs.names.is_empty());
     }
 
     fn rib_row(&mut self, row: &Row, columns: &RibColumns) {

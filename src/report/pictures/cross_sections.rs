@@ -119,8 +119,11 @@ fn draw_cell(canvas: &mut Canvas, cell: &Cell, [left, top]: [f64; 2], size: f64,
     if let Some([low, high]) = bounds(&cell.after) {
         let [x0, y0] = on_sheet([low[0], high[1]]);
         let [x1, y1] = on_sheet([high[0], low[1]]);
-        width_line(canvas, [x0, x1], y1 + 14.0, high[0] - low[0]);
-        height_line(canvas, x0 - 14.0, [y0, y1], high[1] - low[1]);
+        // Clear of the start's outline, too.
+        let [least, _] = bounds(&cell.before).unwrap_or([low, high]);
+        let [left, foot] = on_sheet([least[0].min(low[0]), least[1].min(low[1])]);
+        width_line(canvas, [x0, x1], foot + 14.0, high[0] - low[0]);
+        height_line(canvas, left - 14.0, [y0, y1], high[1] - low[1]);
     }
     let name = if enlarged { format!("{} (enlarged {}-fold)", cell.name, significant(largest / own, 2)) } else { cell.name.clone() };
     let letters = size / 6.6;

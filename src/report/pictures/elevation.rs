@@ -53,11 +53,11 @@ fn line(canvas: &mut Canvas, problem: &Problem, about: &About, chain: &Chain, to
         let reach = reach.fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let (x, y) = (Scale::between(0.0, length), Scale::linear([-reach, reach].into_iter()));
         let left = 80.0 + 425.0 * at as f64;
-        let panel = Panel { left, top: top + 24.0, width: 340.0, height: 118.0, x, y };
+        let panel = Panel { left, top: top + 24.0, width: 330.0, height: 118.0, x, y };
         let times = panel.exaggeration();
         if !(0.95..1.05).contains(&times) {
             let note = format!("{what} drawn {}-fold", significant(times, 2));
-            canvas.note(left + 340.0, top + 18.0, "end", &note);
+            canvas.note(left + 330.0, top + 18.0, "end", &note);
         }
         panel.draw_extent(canvas, &with_unit("along the line", about), &with_unit(what, about));
         for (extents, style) in [(before, BEFORE), (after, AFTER)] {
