@@ -53,7 +53,15 @@ impl IterationLog {
         }
         let mut file = File::create(path)?;
         write_row(&mut file, &header)?;
-        Ok(IterationLog { path: path.into(), file, with_variables, begun: None, attempts: Vec::new(), begun_times: 0, failure: None })
+        Ok(IterationLog {
+            path: path.into(),
+            file,
+            with_variables,
+            begun: None,
+            attempts: Vec::new(),
+            begun_times: 0,
+            failure: None,
+        })
     }
 
     /// The backend begins anew: further rows are of the next attempt. Seconds count from the first.
@@ -215,7 +223,10 @@ mod tests {
             assert_eq!(log.add(&row(if attempt == 0 { &[1.0] } else { &[2.0] })), attempt + 1);
         }
         assert_eq!(log.add(&row(&[3.0])), 3, "iterations are counted anew");
-        assert_eq!([log.attempt(1, &[1.1]), log.attempt(2, &[2.1]), log.attempt(2, &[2.9]), log.attempt(3, &[0.0])], [1, 2, 3, 0]);
+        assert_eq!(
+            [log.attempt(1, &[1.1]), log.attempt(2, &[2.1]), log.attempt(2, &[2.9]), log.attempt(3, &[0.0])],
+            [1, 2, 3, 0]
+        );
         assert!(!log.close(2, &row(&[2.0])) && log.close(1, &row(&[1.5])));
         let mut reader = csv::Reader::from_path(file.path()).unwrap();
         let rows: Vec<_> = reader.records().map(Result::unwrap).collect();

@@ -242,7 +242,8 @@ fn logs_read_back_bit_for_bit() {
         logs += 1;
         let mut reader = csv::Reader::from_path(&path).unwrap();
         let header: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
-        let columns = "iteration,evaluations,objective,feasibility,optimality,step_norm,seconds,attempt,left.b,left.h,right.b,right.h";
+        let columns =
+            "iteration,evaluations,objective,feasibility,optimality,step_norm,seconds,attempt,left.b,left.h,right.b,right.h";
         assert_eq!(header.join(","), columns);
         let mut rows = 0;
         for record in reader.records() {

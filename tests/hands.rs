@@ -246,7 +246,9 @@ fn sizes_that_cannot_fit_are_refused_with_the_estimate() {
 fn the_log_has_the_rows_of_the_run_that_gave_the_answer() {
     let place = Place::new(&[("tapered.toml", TAPERED)]);
     let result = place.json("solve tapered.toml --json --plot");
-    for (solution, backend) in result["solutions"].as_array().expect("solutions").iter().map(|one| (one, one["backend"].as_str().expect("a name"))) {
+    for (solution, backend) in
+        result["solutions"].as_array().expect("solutions").iter().map(|one| (one, one["backend"].as_str().expect("a name")))
+    {
         let log = format!("results/tapered/log-{backend}.csv");
         let attempt = solution["attempt"].as_u64().expect("an attempt").to_string();
         let rows: Vec<f64> = place
@@ -265,7 +267,8 @@ fn the_log_has_the_rows_of_the_run_that_gave_the_answer() {
 
 #[test]
 fn every_rib_of_a_line_is_drawn() {
-    let section = |k: u32| format!("[sections.s{k}]\nkind = \"rectangle\"\nb = 20\nh = {{ lower = {}, upper = 600 }}\n", 100 - 10 * k);
+    let section =
+        |k: u32| format!("[sections.s{k}]\nkind = \"rectangle\"\nb = 20\nh = {{ lower = {}, upper = 600 }}\n", 100 - 10 * k);
     let rib = |k: u32, line: &str| format!("[[ribs]]\nname = \"r{k}\"\nsection = \"s{k}\"\nlength = 500\n{line}\n");
     let all = |line: &str| (1..=5).map(section).chain((1..=5).map(|k| rib(k, line))).collect::<String>();
     let place = Place::new(&[("line.toml", &all("data = { line = \"L0\" }")), ("apart.toml", &all(""))]);
@@ -322,7 +325,8 @@ fn every_limit_is_told_with_its_use() {
     assert!(out.contains("Utilisation") && out.contains("by section and rib"), "{out}");
     let percents = place.column("results/t/utilisation.csv", "percent");
     let names = place.column("results/t/utilisation.csv", "name");
-    let at = |name: &str| percents[names.iter().position(|known| known == name).expect("the row")].parse::<f64>().expect("a number");
+    let at =
+        |name: &str| percents[names.iter().position(|known| known == name).expect("the row")].parse::<f64>().expect("a number");
     assert!((at("bending quarter") - 100.0).abs() < 1e-6 && at("bending mid") < 60.0);
     // mid.hw >= end.hw, both of which vary.
     assert!((at("taper") - 100.0 * 200.0 / 1197.65).abs() < 0.01, "{}", at("taper"));
@@ -350,7 +354,8 @@ fn a_requirement_over_arrays_is_a_row_per_element() {
     let place = Place::new(&[("l.toml", include_str!("../src/input/examples/load-cases.toml"))]);
     let result = place.json("solve l.toml --json");
     assert_eq!(result["status"], "certified", "{result:#}");
-    let names: Vec<&str> = result["constraints"].as_array().expect("rows").iter().filter_map(|row| row["name"].as_str()).collect();
+    let names: Vec<&str> =
+        result["constraints"].as_array().expect("rows").iter().filter_map(|row| row["name"].as_str()).collect();
     assert!(names.iter().any(|name| name.starts_with("stress") && name.ends_with("[span 2]")), "{names:?}");
     let global = "minimize = \"h\"\n[parameters]\nM = [1, 4, 2]\n[variables]\nh = { lower = 0.1, upper = 9 }\n[[constraints]]\nname = \"m\"\nrequire = \"M/h <= 2\"\n";
     place.write("g.toml", global);
@@ -366,7 +371,10 @@ fn a_requirement_over_arrays_is_a_row_per_element() {
 fn set_fixes_a_variable() {
     let place = Place::new(&[("b.toml", BOX)]);
     let result = place.json("solve b.toml --json --set cell.tw=8");
-    assert_eq!((result["variables"]["cell.tw"].as_f64(), result["problem"]["changes"][0].as_str()), (Some(8.0), Some("cell.tw=8")));
+    assert_eq!(
+        (result["variables"]["cell.tw"].as_f64(), result["problem"]["changes"][0].as_str()),
+        (Some(8.0), Some("cell.tw=8"))
+    );
     let (code, _, err) = place.said("solve b.toml --set cell.tq=8");
     assert!(code == 2 && err.contains("did you mean") || err.contains("fixes a variable"), "{err}");
 }
@@ -391,7 +399,11 @@ fn help_lists_the_examples_and_the_reference() {
 
 #[test]
 fn semicolons_tabs_and_decimal_commas_are_read() {
-    let foreign = |separator: &str| SECTIONS.replace(',', separator).replace(&format!("{separator}1{separator}1{separator}2"), &format!("{separator}0,5{separator}0,25{separator}2"));
+    let foreign = |separator: &str| {
+        SECTIONS
+            .replace(',', separator)
+            .replace(&format!("{separator}1{separator}1{separator}2"), &format!("{separator}0,5{separator}0,25{separator}2"))
+    };
     for separator in [";", "\t"] {
         let place = Place::new(&[("p.toml", TWO), ("s.csv", &foreign(separator)), ("r.csv", &RIBS.replace(',', separator))]);
         let (code, _, err) = place.said("solve p.toml -q");
@@ -406,7 +418,8 @@ fn what_follows_from_a_table_that_did_not_load_is_left_out() {
     let constrained = format!("{TWO}[[constraints]]\nfor = \"sections\"\nrequire = \"Ix >= 1\"\n");
     let place = Place::new(&[("p.toml", &constrained), ("s.csv", "nome,kind,b\na,rectangle,1\n"), ("r.csv", RIBS)]);
     let result = place.json("check p.toml --json");
-    let messages: Vec<&str> = result["mistakes"].as_array().expect("mistakes").iter().filter_map(|one| one["message"].as_str()).collect();
+    let messages: Vec<&str> =
+        result["mistakes"].as_array().expect("mistakes").iter().filter_map(|one| one["message"].as_str()).collect();
     assert_eq!(messages, ["the table lacks the column `name`"]);
     place.write("s.csv", "name,kind,b,h\n\"s0,rectangle,1,1\n");
     let (_, _, err) = place.said("check p.toml");
@@ -419,7 +432,11 @@ fn what_follows_from_a_table_that_did_not_load_is_left_out() {
 
 #[test]
 fn infinite_numbers_are_refused_but_as_bounds() {
-    let file = |a: &str, upper: &str| format!("minimize = \"x\"\n[parameters]\na = {a}\n[variables]\nx = {{ lower = 0, upper = {upper} }}\n[[constraints]]\nrequire = \"x >= a\"\n");
+    let file = |a: &str, upper: &str| {
+        format!(
+            "minimize = \"x\"\n[parameters]\na = {a}\n[variables]\nx = {{ lower = 0, upper = {upper} }}\n[[constraints]]\nrequire = \"x >= a\"\n"
+        )
+    };
     let place = Place::new(&[("open.toml", &file("1", "inf"))]);
     assert_eq!(place.said("solve open.toml -q").0, 0);
     for (a, upper) in [("1e400", "9"), ("inf", "9"), ("1", "1e400")] {
@@ -444,7 +461,10 @@ fn texts_of_the_file_do_not_steer_the_terminal_or_a_spreadsheet() {
 
 #[test]
 fn a_name_of_64_kilobytes_is_no_panic() {
-    let file = format!("minimize = \"x\"\n[variables]\nx = {{ lower = 0, upper = 1 }}\n{} = {{ lower = 0, upper = 1 }}\n", "y".repeat(65_536));
+    let file = format!(
+        "minimize = \"x\"\n[variables]\nx = {{ lower = 0, upper = 1 }}\n{} = {{ lower = 0, upper = 1 }}\n",
+        "y".repeat(65_536)
+    );
     let place = Place::new(&[("n.toml", &file)]);
     for command in ["solve n.toml", "bounds n.toml"] {
         let (code, out, err) = place.said(command);
@@ -465,9 +485,15 @@ fn a_warning_does_not_echo_a_whole_expression() {
 fn words_say_what_is_meant() {
     let place = Place::new(&[("b.toml", BOX)]);
     let (_, out, _) = place.said("solve b.toml");
-    assert!(out.contains("argmin: converged") && out.contains("relative to their sizes") && !out.contains("no further progress"), "{out}");
+    assert!(
+        out.contains("argmin: converged") && out.contains("relative to their sizes") && !out.contains("no further progress"),
+        "{out}"
+    );
     let (code, out, _) = place.said("solve b.toml --algorithm lbfgs");
-    assert!(code == 0 && out.contains("nlopt was not run") && out.contains("refused") && !out.contains("did not get there"), "{out}");
+    assert!(
+        code == 0 && out.contains("nlopt was not run") && out.contains("refused") && !out.contains("did not get there"),
+        "{out}"
+    );
     place.write("z.toml", &format!("{X}[solver]\nconstraint_tolerance = 0\noptimality_tolerance = 1e300\n"));
     let (_, _, err) = place.said("check z.toml");
     assert!(err.contains("neither of them") && err.contains("1e300") && !err.contains("0000000000"), "{err}");

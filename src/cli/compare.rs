@@ -48,7 +48,8 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
 
 /// No file of a profile takes the place of a problem or its tables.
 fn spare_inputs(subjects: &[Subject], folder: &Path) -> Result<(), RunError> {
-    let names = ["compare.csv", "profile-evaluations.csv", "profile-evaluations.svg", "profile-seconds.csv", "profile-seconds.svg"];
+    let names =
+        ["compare.csv", "profile-evaluations.csv", "profile-evaluations.svg", "profile-seconds.csv", "profile-seconds.svg"];
     for subject in subjects {
         subject.inputs.spare(names.map(|name| folder.join(name)))?;
     }

@@ -60,7 +60,8 @@ impl<W: Write> Write for Plain<W> {
         let control = |pair: &[u8]| pair[0] == SECOND_CONTROLS && pair[1] < 0xa0;
         if bytes.iter().any(|&byte| acts(byte)) || bytes.windows(2).any(control) {
             let text = String::from_utf8_lossy(bytes);
-            let shown: String = text.chars().map(|c| if c.is_control() && c != '\n' && c != '\t' { '\u{fffd}' } else { c }).collect();
+            let shown: String =
+                text.chars().map(|c| if c.is_control() && c != '\n' && c != '\t' { '\u{fffd}' } else { c }).collect();
             self.0.write_all(shown.as_bytes())?;
         } else {
             self.0.write_all(bytes)?;

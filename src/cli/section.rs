@@ -53,7 +53,14 @@ fn described(arguments: &Section) -> Result<(Vec<CrossSection>, Inputs, bool), F
             output::tell(&subject.warnings);
             let sections = section::of_file(&subject, &arguments.sections, arguments.answer.as_deref())?;
             let inputs = subject.inputs.files().iter().cloned().chain(arguments.answer.clone());
-            let at_start = arguments.answer.is_none() && subject.problem().variables.lower.iter().zip(&subject.problem().variables.upper).any(|(lower, upper)| lower < upper);
+            let at_start = arguments.answer.is_none()
+                && subject
+                    .problem()
+                    .variables
+                    .lower
+                    .iter()
+                    .zip(&subject.problem().variables.upper)
+                    .any(|(lower, upper)| lower < upper);
             Ok((sections, Inputs::new(inputs), at_start))
         }
         // Held off by the definition of the arguments.

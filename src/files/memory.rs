@@ -53,8 +53,14 @@ mod tests {
 
     #[test]
     fn limits_are_read_where_there_are_any() {
-        assert_eq!(number("Max address space        8192000000           unlimited            bytes\n", "Max address space"), Some(8_192_000_000));
-        assert_eq!(number("Max address space        unlimited            unlimited            bytes\n", "Max address space"), None);
+        assert_eq!(
+            number("Max address space        8192000000           unlimited            bytes\n", "Max address space"),
+            Some(8_192_000_000)
+        );
+        assert_eq!(
+            number("Max address space        unlimited            unlimited            bytes\n", "Max address space"),
+            None
+        );
         assert!(fits(1e30).is_err() || available().is_none());
     }
 }

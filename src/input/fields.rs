@@ -127,7 +127,10 @@ impl<'a> Field<'a> {
             Some(number) if number.is_infinite() && !(reader.bounds && self.says_infinity()) => {
                 let (what, help) = match self.says_infinity() {
                     true => ("cannot be infinite", "only bounds may be inf; leave an open bound out, or give a number"),
-                    false => ("is too large for a number", "numbers reach to about 1.8e308; change the units, or leave an open bound out"),
+                    false => (
+                        "is too large for a number",
+                        "numbers reach to about 1.8e308; change the units, or leave an open bound out",
+                    ),
                 };
                 reader.findings.mistake(self.place, format!("`{}` {what}", self.key), help);
                 None

@@ -88,7 +88,17 @@ impl Plot {
         canvas.path(&path, style);
         let (x, y) = (WIDTH - RIGHT + 14.0, TOP + 10.0 + 18.0 * index as f64);
         canvas.path(&format!("M{x} {y}h24"), style);
-        canvas.text(x + 32.0, y + 4.0, "start", &format!("{} ({:.0} %){}", curve.solver, 100.0 * curve.share(f64::MAX), same.map_or(String::new(), |other| format!(", over {}", other.solver))));
+        canvas.text(
+            x + 32.0,
+            y + 4.0,
+            "start",
+            &format!(
+                "{} ({:.0} %){}",
+                curve.solver,
+                100.0 * curve.share(f64::MAX),
+                same.map_or(String::new(), |other| format!(", over {}", other.solver))
+            ),
+        );
     }
 }
 

@@ -14,7 +14,8 @@ use super::{Findings, Held, blocks};
 pub fn variables(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let answers = &findings.outcome.answers;
     let backends = answers.iter().map(|answer| answer.backend);
-    let columns = ["name", "lower", "start", "upper"].into_iter().chain(backends).chain(["active", "multiplier", "sensitivity", "value"]);
+    let columns =
+        ["name", "lower", "start", "upper"].into_iter().chain(backends).chain(["active", "multiplier", "sensitivity", "value"]);
     header(out, columns)?;
     let meta = findings.model.meta();
     let row = |j: usize, rows: &mut Rows| {

@@ -53,8 +53,14 @@ fn outcome() -> Outcome {
         seconds: 0.25,
         invalid: None,
     };
-    let answer =
-        Answer { backend: "argmin", attempt: 1, solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
+    let answer = Answer {
+        backend: "argmin",
+        attempt: 1,
+        solution,
+        objective: Some(1.9),
+        certificate: Some(certificate()),
+        remarks: Vec::new(),
+    };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,
@@ -78,7 +84,8 @@ fn text(
 ) -> String {
     let (about, model) = (about(sense), model());
     let volumes = Some(Volumes { total: 1.9, frustum: 1.9, prismatoid: 2.0 });
-    let findings = Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes, mass: None, utilisation: None };
+    let findings =
+        Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes, mass: None, utilisation: None };
     let mut out = Vec::new();
     write(&findings, &mut out).unwrap();
     String::from_utf8(out).unwrap()

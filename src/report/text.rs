@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-pub use crate::problem::words::{cell, count, plain, shown, shortened};
+pub use crate::problem::words::{cell, count, plain, shortened, shown};
 
 /// A table for people: a header, rows, columns as wide as they need.
 #[derive(Debug, Clone, Default)]

@@ -180,6 +180,9 @@ mod tests {
         table().write_csv(&mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.lines().next(), Some(HEADER));
-        assert!(text.contains("stress[r1],stress,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="), "{text}");
+        assert!(
+            text.contains("stress[r1],stress,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="),
+            "{text}"
+        );
     }
 }

@@ -2,18 +2,18 @@
 
 use std::cell::RefCell;
 
+use super::folder::FolderError;
 use super::results::Results;
 use super::{Choice, RunError, Subject, Watcher};
-use super::folder::FolderError;
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
 use crate::log::IterationLog;
 use crate::report::pictures::Trace;
 
 /// Log and rows of each backend, in the order of the choices.
-pub(super) struct Records {
+pub(super) struct Records<'s> {
     records: Vec<RefCell<Record>>,
-    sign: f64,
+    subject: &'s Subject,
 }
 
 struct Record {
@@ -21,27 +21,26 @@ struct Record {
     trace: Trace,
 }
 
-impl Records {
+impl<'s> Records<'s> {
     /// Opens the logs, before anything is solved: a disk that cannot be written to is told at once.
     ///
     /// # Errors
     /// A log that cannot be made.
-    pub fn open(subject: &Subject, choices: &[Choice], results: &Results) -> Result<Records, RunError> {
-        let model = subject.model();
+    pub fn open(subject: &'s Subject, choices: &[Choice], results: &Results) -> Result<Records<'s>, RunError> {
+        let model = subject.shown();
         let open = |choice: &Choice| {
             let (backend, path) = (choice.backend.name(), results.log(choice.backend.name()));
             let log = IterationLog::create(&path, model.meta().variables(), |j| model.variable_name(j));
             let log = log.map_err(|cause| RunError::from(FolderError::Unwritable { path, cause }))?;
             Ok(RefCell::new(Record { log, trace: Trace::new(backend) }))
         };
-        Ok(Records { records: choices.iter().map(open).collect::<Result<_, RunError>>()?, sign: subject.sign() })
+        Ok(Records { records: choices.iter().map(open).collect::<Result<_, RunError>>()?, subject })
     }
 
     /// The cross-checked run, every iteration logged and shown.
     pub fn watch(&self, task: &Task<'_>, choices: &[Choice], watcher: &mut dyn Watcher) -> Outcome {
         let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
         let watcher = RefCell::new(watcher);
-        let sign = self.sign;
         let mut observe = |at: usize, algorithm: &str| -> Box<dyn FnMut(&Iteration<'_>) + '_> {
             let record = self.records.get(at);
             if let Some(record) = record {
@@ -50,28 +49,38 @@ impl Records {
             watcher.borrow_mut().begin(choices.get(at).map_or("", |choice| choice.backend.name()), algorithm);
             let watcher = &watcher;
             Box::new(move |iteration: &Iteration<'_>| {
-                let in_users_sense = Iteration { objective: sign * iteration.objective, ..*iteration };
+                let in_users_sense = self.in_users_terms(iteration);
                 if let Some(record) = record {
                     record.borrow_mut().add(&in_users_sense);
                 }
                 watcher.borrow_mut().iteration(&in_users_sense);
             })
         };
-        let mut outcome = crosscheck::run(task, &backends, &mut observe);
+        let outcome = crosscheck::run(task, &backends, &mut observe);
         watcher.borrow_mut().end();
-        self.close(&mut outcome);
         outcome
     }
 
+    /// An iteration in the user's sense and variables. A restated objective is shown as the user's expression is at that point.
+    fn in_users_terms<'i>(&self, iteration: &Iteration<'i>) -> Iteration<'i> {
+        let (shown, all) = (self.subject.shown(), iteration.x);
+        let x = all.get(..shown.meta().variables()).unwrap_or(all);
+        let objective = match x.len() < all.len() {
+            true => shown.objective(x).unwrap_or(iteration.objective),
+            false => iteration.objective,
+        };
+        Iteration { objective: self.subject.sign() * objective, x, ..*iteration }
+    }
+
     /// Numbers the answers' attempts as the logs do. A solver's last row need not be the point it brought back, as that was polished, or put onto bounds: then it is added.
-    fn close(&self, outcome: &mut Outcome) {
+    pub fn close(&self, outcome: &mut Outcome) {
         for (record, answer) in self.records.iter().zip(&mut outcome.answers) {
             answer.attempt = record.borrow().log.attempt(answer.attempt, &answer.solution.x);
             let Some(certificate) = &answer.certificate else { continue };
             let iteration = Iteration {
                 iteration: answer.solution.iterations.unwrap_or(0),
                 evaluations: answer.solution.evaluations,
-                objective: self.sign * certificate.objective,
+                objective: self.subject.sign() * certificate.objective,
                 feasibility: certificate.primal_infeasibility,
                 optimality: certificate.dual_infeasibility,
                 step_norm: f64::NAN,

@@ -11,7 +11,13 @@ use crate::report::pictures::{Trace, convergence, cross_sections, elevation, pro
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub(super) fn leave(traces: &[Trace], start: &[f64], subject: &Subject, findings: &Findings<'_>, files: &mut Writer) -> io::Result<()> {
+pub(super) fn leave(
+    traces: &[Trace],
+    start: &[f64],
+    subject: &Subject,
+    findings: &Findings<'_>,
+    files: &mut Writer,
+) -> io::Result<()> {
     let (problem, about, answer) = (subject.problem(), findings.about, findings.outcome.x.as_slice());
     let sections = (!problem.sections.names.is_empty()).then(|| cross_sections(problem, about, start, answer));
     let pictures = [

@@ -11,8 +11,7 @@ use crate::files::{Inputs, whole};
 use crate::report::earlier::{self, Earlier};
 
 /// Tables and the result, besides logs and pictures.
-const TABLES: [&str; 6] =
-    ["variables.csv", "constraints.csv", "utilisation.csv", "sizes.csv", "volumes.csv", "result.json"];
+const TABLES: [&str; 6] = ["variables.csv", "constraints.csv", "utilisation.csv", "sizes.csv", "volumes.csv", "result.json"];
 
 /// All pictures a run may leave.
 const PICTURES: [&str; 5] = ["convergence.svg", "sections.svg", "ribs.svg", "profiles.svg", "network.svg"];
@@ -80,8 +79,8 @@ impl Results {
         ending: Ending<'_>,
         write: impl FnOnce(&mut Writer) -> io::Result<()>,
     ) -> (Folder, PathBuf, Result<(), RunError>) {
-        let stays = ending.cut_short
-            && self.earlier.as_ref().is_some_and(|earlier| earlier.certified && earlier.sha256 == ending.sha256);
+        let stays =
+            ending.cut_short && self.earlier.as_ref().is_some_and(|earlier| earlier.certified && earlier.sha256 == ending.sha256);
         let place = if stays { self.folder.file(INTERRUPTED) } else { self.folder.path().to_path_buf() };
         let mut writer = Writer { place: place.clone(), set: whole::Set::default(), at: PathBuf::new() };
         let result = write(&mut writer).map_err(|cause| (writer.at.clone(), cause));
@@ -218,7 +217,9 @@ mod tests {
     }
 
     fn result(status: &str, file: &str) -> String {
-        format!("{{\"format\": \"ribopt-result/1\", \"problem\": {{\"file\": \"{file}\", \"sha256\": \"{HASH}\"}}, \"status\": \"{status}\", \"variables\": {{}}}}")
+        format!(
+            "{{\"format\": \"ribopt-result/1\", \"problem\": {{\"file\": \"{file}\", \"sha256\": \"{HASH}\"}}, \"status\": \"{status}\", \"variables\": {{}}}}"
+        )
     }
 
     /// A run that leaves a log and a result.
@@ -282,7 +283,11 @@ mod tests {
 
     #[test]
     fn a_file_of_somebody_else_is_not_overwritten() {
-        for (name, text) in [("variables.csv", "name,kind,b\ns,rectangle,1\n"), ("result.json", "[sections.a]\n"), ("ribs.svg", "<?xml version=\"1.0\"?>")] {
+        for (name, text) in [
+            ("variables.csv", "name,kind,b\ns,rectangle,1\n"),
+            ("result.json", "[sections.a]\n"),
+            ("ribs.svg", "<?xml version=\"1.0\"?>"),
+        ] {
             let place = tempfile::tempdir().unwrap();
             fs::write(place.path().join(name), text).unwrap();
             let error = Results::open(place.path(), &["argmin"], &Inputs::default()).unwrap_err().to_string();

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::choice::{Choice, refuse_if_none_accepts};
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
+use super::present::present;
 use super::results::{Ending, Results};
 use super::{RunError, Subject, Watcher, pictures, sizes, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
@@ -57,7 +58,7 @@ impl Solved {
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
         Findings {
             about: &self.about,
-            model: subject.model(),
+            model: subject.shown(),
             class: subject.class,
             outcome: &self.outcome,
             volumes: self.volumes,
@@ -96,20 +97,18 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         interrupt: request.interrupt,
     };
-    let outcome = records.watch(&task, &request.choices, watcher);
+    let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
+    records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
     let volumes = subject.volumes(&outcome.x);
-    let few_rows = subject.model().meta().rows() <= MOST_LISTED;
+    let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
     let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
     let mass = sizes::mass(subject.problem(), &outcome.x);
-    let (model, class) = (subject.model(), subject.class);
-    let findings =
-        Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
-    let ending = Ending {
-        sha256: &about.sha256,
-        cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached),
-    };
+    let (model, class) = (subject.shown(), subject.class);
+    let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
+    let ending =
+        Ending { sha256: &about.sha256, cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached) };
     let (locked, place, written) = results.leave(ending, |files| {
         files.file("variables.csv", |out| tables::variables(&findings, out))?;
         files.file("constraints.csv", |out| tables::constraints(&findings, out))?;
@@ -120,6 +119,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         files.file("result.json", |out| result::write(&findings, out))?;
         if request.plot {
             let start = outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
+            let start = &start[..start.len().min(subject.shown().meta().variables())];
             pictures::leave(&records.traces(&outcome), start, subject, &findings, files)?;
         }
         Ok(())
@@ -127,13 +127,9 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
 }
 
-fn starting_point(
-    subject: &Subject,
-    answer: Option<&EarlierAnswer>,
-    warnings: &mut Vec<String>,
-) -> (Vec<f64>, Option<Vec<f64>>) {
+fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {
     let Some(answer) = answer else { return (subject.model().meta().start.clone(), None) };
-    let (start, remarks) = answer.start(subject.model());
+    let (start, remarks) = answer.start(subject.shown());
     warnings.extend(remarks);
-    (start, answer.multipliers(subject.model(), subject.sign()))
+    (subject.completed(start), answer.multipliers(subject.model(), subject.sign()))
 }

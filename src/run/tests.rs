@@ -10,12 +10,12 @@ use super::compare::compare;
 use super::solve::{Request, solve};
 use super::verify::verify;
 use super::*;
-use crate::report::answer::EarlierAnswer;
 use crate::crosscheck::Status;
 use crate::problem::formula::Total;
 use crate::problem::{
     Constraint, Dimension, Formula, Limit, Origin, Problem, Property, Ribs, Scope, Sections, Variables, VolumeLaw,
 };
+use crate::report::answer::EarlierAnswer;
 use crate::sections;
 
 /// Two rectangles b × h, one rib of length 3 between them; Ix of the first at least 1e-4.
@@ -40,6 +40,7 @@ fn rib() -> Problem {
             lower: vec![0.05, 0.1, 0.05, 0.1],
             upper: vec![0.4, 0.6, 0.4, 0.6],
             start: vec![0.2, 0.3, 0.2, 0.3],
+            typical: Vec::new(),
         },
         sections: Sections {
             names: ["left", "right"].into_iter().collect(),

@@ -121,7 +121,7 @@ struct Row {
 
 /// Every limit, constraint by constraint.
 fn uses(subject: &Subject, x: &[f64]) -> Result<Vec<Row>, EvaluationError> {
-    let (problem, model) = (subject.problem(), subject.model());
+    let (problem, model) = (subject.problem(), subject.shown());
     let meta = model.meta();
     let mut values = vec![0.0; meta.rows()];
     model.constraints(x, &mut values)?;

@@ -98,8 +98,29 @@ impl Kind for BoxBeam {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["b", "h", "tw", "tf", "bi", "hi", "A", "Ix", "Iy", "Wx", "Wy", "Wplx", "Wply", "ix", "iy", "J", "Asx", "Asy", "perimeter",
-            "width", "height"]
+        &[
+            "b",
+            "h",
+            "tw",
+            "tf",
+            "bi",
+            "hi",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
+            "height",
+        ]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {

@@ -104,8 +104,32 @@ impl Kind for HBeam {
 
     fn properties(&self) -> &'static [&'static str] {
         &[
-            "tw", "hw", "b", "tf", "h", "b1", "h1", "b2", "h2", "t", "A", "Ix", "Iy", "Wx", "Wy", "Wplx", "Wply",
-            "ix", "iy", "J", "Iw", "Asx", "Asy", "perimeter", "width", "height",
+            "tw",
+            "hw",
+            "b",
+            "tf",
+            "h",
+            "b1",
+            "h1",
+            "b2",
+            "h2",
+            "t",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Iw",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
+            "height",
         ]
     }
 

@@ -17,8 +17,7 @@ pub struct Channel;
 /// An angle: an upright leg t × h and, at its foot, a level one to the overall width b, of the same thickness.
 pub struct Angle;
 
-static I_SECTION: &[Form] =
-    &[Form { kind: "i-section", dimensions: &["tw", "hw", "b_top", "tf_top", "b_bottom", "tf_bottom"] }];
+static I_SECTION: &[Form] = &[Form { kind: "i-section", dimensions: &["tw", "hw", "b_top", "tf_top", "b_bottom", "tf_bottom"] }];
 static CHANNEL: &[Form] = &[
     Form { kind: "channel", dimensions: &["tw", "hw", "b", "tf"] },
     Form { kind: "channel", dimensions: &["tw", "b", "tf", "h"] },
@@ -75,7 +74,8 @@ impl Pieces {
     /// The centroid's distance from the left (d = 0) or lower edge (d = 1).
     fn centroid(&self, graph: &mut Graph, d: usize) -> NodeId {
         let areas = self.areas(graph);
-        let firsts: Vec<NodeId> = areas.iter().zip(&self.list).map(|(area, piece)| graph.multiply(*area, piece.middle[d])).collect();
+        let firsts: Vec<NodeId> =
+            areas.iter().zip(&self.list).map(|(area, piece)| graph.multiply(*area, piece.middle[d])).collect();
         let (first, area) = (graph.sum(&firsts), self.area(graph));
         graph.divide(first, area)
     }
@@ -199,8 +199,29 @@ impl Kind for ISection {
 
     fn properties(&self) -> &'static [&'static str] {
         &[
-            "tw", "hw", "b_top", "tf_top", "b_bottom", "tf_bottom", "h", "A", "Ix", "Iy", "Wx", "Wx_top", "Wx_bottom", "Wy", "ix",
-            "iy", "J", "Iw", "y_top", "y_bottom", "perimeter", "width", "height",
+            "tw",
+            "hw",
+            "b_top",
+            "tf_top",
+            "b_bottom",
+            "tf_bottom",
+            "h",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wx_top",
+            "Wx_bottom",
+            "Wy",
+            "ix",
+            "iy",
+            "J",
+            "Iw",
+            "y_top",
+            "y_bottom",
+            "perimeter",
+            "width",
+            "height",
         ]
     }
 
@@ -325,8 +346,28 @@ impl Kind for Channel {
 
     fn properties(&self) -> &'static [&'static str] {
         &[
-            "tw", "hw", "b", "tf", "h", "A", "Ix", "Iy", "Wx", "Wy", "Wy_left", "Wy_right", "Wplx", "ix", "iy", "J", "Iw", "x_left",
-            "x_right", "perimeter", "width", "height",
+            "tw",
+            "hw",
+            "b",
+            "tf",
+            "h",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wy_left",
+            "Wy_right",
+            "Wplx",
+            "ix",
+            "iy",
+            "J",
+            "Iw",
+            "x_left",
+            "x_right",
+            "perimeter",
+            "width",
+            "height",
         ]
     }
 
@@ -389,10 +430,7 @@ impl Angle {
         let rest = graph.subtract(b, t);
         let [half_t, half_h, half_rest] = [t, h, rest].map(|length| graph.scale(0.5, length));
         let beside = graph.add(t, half_rest);
-        let list = vec![
-            Piece { sides: [t, h], middle: [half_t, half_h] },
-            Piece { sides: [rest, t], middle: [beside, half_t] },
-        ];
+        let list = vec![Piece { sides: [t, h], middle: [half_t, half_h] }, Piece { sides: [rest, t], middle: [beside, half_t] }];
         Some(Pieces { list, extent: [b, h] })
     }
 }
@@ -408,8 +446,33 @@ impl Kind for Angle {
 
     fn properties(&self) -> &'static [&'static str] {
         &[
-            "b", "h", "t", "bi", "hi", "A", "Ix", "Iy", "Ixy", "Imin", "Wx", "Wx_top", "Wx_bottom", "Wy", "Wy_left", "Wy_right",
-            "ix", "iy", "imin", "J", "x_left", "x_right", "y_top", "y_bottom", "perimeter", "width", "height",
+            "b",
+            "h",
+            "t",
+            "bi",
+            "hi",
+            "A",
+            "Ix",
+            "Iy",
+            "Ixy",
+            "Imin",
+            "Wx",
+            "Wx_top",
+            "Wx_bottom",
+            "Wy",
+            "Wy_left",
+            "Wy_right",
+            "ix",
+            "iy",
+            "imin",
+            "J",
+            "x_left",
+            "x_right",
+            "y_top",
+            "y_bottom",
+            "perimeter",
+            "width",
+            "height",
         ]
     }
 

@@ -22,7 +22,26 @@ impl Kind for Tube {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["d", "t", "di", "A", "Ix", "Iy", "Wx", "Wy", "Wplx", "Wply", "ix", "iy", "J", "Asx", "Asy", "perimeter", "width", "height"]
+        &[
+            "d",
+            "t",
+            "di",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
+            "height",
+        ]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {

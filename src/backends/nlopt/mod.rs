@@ -149,7 +149,11 @@ fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
         End::Stopped(stop) => format!("stopped: {stop}"),
         End::Invalid(error) => format!("ended where the model has no value ({error})"),
     };
-    let tries = if *attempts == 1 { String::new() } else { format!(" (the best of {attempts} runs, from several starts and with several algorithms)") };
+    let tries = if *attempts == 1 {
+        String::new()
+    } else {
+        format!(" (the best of {attempts} runs, from several starts and with several algorithms)")
+    };
     let point = match watch.best() {
         _ if watch.proved().is_some() && !how.ends_with("passed") => "; its point passed the test".to_owned(),
         Some(best) if watch.is_infeasible() => format!("; rows are violated by up to {:.3e}", best.feasibility),

@@ -106,7 +106,9 @@ impl Assembly<'_> {
             };
         }
         let density = self.names.find(&self.problem, "density");
-        self.problem.density = match density.and_then(|entity| if let Entity::Parameter(p) = entity { self.parameters[p as usize].as_ref() } else { None }) {
+        self.problem.density = match density
+            .and_then(|entity| if let Entity::Parameter(p) = entity { self.parameters[p as usize].as_ref() } else { None })
+        {
             Some(Value::Scalar(Formula::Constant(value))) => Some(*value),
             _ => None,
         };

@@ -32,7 +32,6 @@ impl Overrides {
         let set = self.list.iter().rev().find(|set| set.part.is_none() && set.name == name);
         set.map(|set| set.value)
     }
-
 }
 
 impl Assembly<'_> {
@@ -48,11 +47,15 @@ impl Assembly<'_> {
                 continue;
             };
             match right.trim().parse::<f64>() {
-                Ok(value) if value.is_finite() || (value.is_infinite() && is_open_bound(left, right)) => overrides.list.push(set(left.trim(), value, place(0, left.len()))),
+                Ok(value) if value.is_finite() || (value.is_infinite() && is_open_bound(left, right)) => {
+                    overrides.list.push(set(left.trim(), value, place(0, left.len())))
+                }
                 _ => {
                     let place = place(left.len() + 1, argument.len());
                     let message = match right.trim().parse::<f64>() {
-                        Ok(value) if value.is_infinite() => format!("`{right}` is too large, or infinite where only bounds may be"),
+                        Ok(value) if value.is_infinite() => {
+                            format!("`{right}` is too large, or infinite where only bounds may be")
+                        }
                         _ => format!("`{right}` is no number"),
                     };
                     self.findings.mistake(place, message, "expected a number, as in 0.8");
@@ -69,7 +72,8 @@ impl Assembly<'_> {
             Some(entity) => format!("`{name}` is a {}, not a parameter or a variable", entity.word()),
             None => format!("there is no parameter or variable `{name}`"),
         };
-        let help = "NAME=VALUE sets a parameter or fixes a variable such as depth, x[2] or support.b; NAME.lower=, .upper=, .start=";
+        let help =
+            "NAME=VALUE sets a parameter or fixes a variable such as depth, x[2] or support.b; NAME.lower=, .upper=, .start=";
         self.findings.mistake(place, message, suggestion.unwrap_or_else(|| help.into()));
     }
 

@@ -55,7 +55,8 @@ impl Assembly<'_> {
         if !values.iter().flat_map(Value::formulas).all(|formula| self.cells_filled(formula, items, &user)) {
             return None;
         }
-        let lengths: Vec<usize> = values.iter().filter_map(|value| if let Value::Array(list) = value { Some(list.len()) } else { None }).collect();
+        let lengths: Vec<usize> =
+            values.iter().filter_map(|value| if let Value::Array(list) = value { Some(list.len()) } else { None }).collect();
         let count = lengths.first().copied().unwrap_or(1);
         if let Some(other) = lengths.iter().find(|length| **length != count) {
             let message = format!("the sides are arrays of {count} and {other} elements");

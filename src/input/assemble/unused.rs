@@ -9,7 +9,9 @@ impl Assembly<'_> {
     pub(super) fn say_unused(&mut self) {
         for (collection, word) in [(Collection::Sections, "sections"), (Collection::Ribs, "ribs")] {
             let columns = self.problem.columns(collection).iter().enumerate();
-            let idle = columns.filter(|(at, column)| column.name != "density" && column.name != "line" && !self.used.contains(&(collection, *at as u32)));
+            let idle = columns.filter(|(at, column)| {
+                column.name != "density" && column.name != "line" && !self.used.contains(&(collection, *at as u32))
+            });
             let names: Vec<String> = idle.map(|(_, column)| format!("`{}`", column.name)).collect();
             if !names.is_empty() {
                 let message = format!("data of {word} nobody uses: {}", names.join(", "));

@@ -1,10 +1,10 @@
 //! `[variables]`: sizes, bounds, starts; and the rules for starts of all variables.
 
 use super::Assembly;
+use crate::files::memory;
 use crate::input::declaration::{Numbers, Range, VariableEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
-use crate::files::memory;
 use crate::problem::resolve::Value;
 use crate::problem::words::brief;
 use crate::problem::{Formula, Origin};
@@ -124,10 +124,12 @@ impl Assembly<'_> {
             if let Some((message, help)) = wrong(lower, upper, start) {
                 let name = self.problem.variable_name(j);
                 self.findings.mistake(self.variable_place(j), format!("`{name}`: {message}"), help);
+                self.problem.variables.typical.push(0.0);
                 continue;
             }
             let inside = if start.is_nan() { middle(lower, upper) } else { start.clamp(lower, upper) };
             self.problem.variables.start[j] = inside;
+            self.problem.variables.typical.push(if start.is_nan() { 0.0 } else { start.abs() });
             if !start.is_nan() && inside != start {
                 moved += 1;
                 if moved <= NAMED {

@@ -3,8 +3,8 @@
 use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
 use crate::problem::nearest::did_you_mean;
-use crate::problem::words::brief;
 use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
+use crate::problem::words::brief;
 
 /// The table's values, each checked; what is left out keeps its default.
 pub(super) fn settings(mut fields: Fields, settings: &mut Settings, reader: &mut Reader) {

@@ -68,9 +68,11 @@ impl<'a> Resolver<'a, '_> {
             (Some(item), _) => number(&self.columns(collection)[column as usize], item).map(Formula::Constant),
             (None, ["from", _]) => Some(Formula::EndData(End::From, column)),
             (None, ["to", _]) => Some(Formula::EndData(End::To, column)),
-            (None, _) if matches!(self.columns(collection)[column as usize].cells, Cells::Labels { .. }) => {
-                self.mistake(span, format!("data `{column_name}` are text"), Some("only data of numbers can be reckoned with".into()))
-            }
+            (None, _) if matches!(self.columns(collection)[column as usize].cells, Cells::Labels { .. }) => self.mistake(
+                span,
+                format!("data `{column_name}` are text"),
+                Some("only data of numbers can be reckoned with".into()),
+            ),
             (None, _) => Some(Formula::OwnData(column)),
         }
     }

@@ -153,7 +153,11 @@ impl Canvas {
     pub fn path(&mut self, data: &str, style: Style) {
         let Style { stroke, width, dash, filled } = style;
         let (colour, class) = (stroke.colours()[0], stroke.class());
-        let fill = if filled { format!("fill=\"{colour}\" fill-opacity=\"0.22\" fill-rule=\"evenodd\"") } else { "fill=\"none\"".into() };
+        let fill = if filled {
+            format!("fill=\"{colour}\" fill-opacity=\"0.22\" fill-rule=\"evenodd\"")
+        } else {
+            "fill=\"none\"".into()
+        };
         let dash = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
         let also = if filled { " a" } else { "" };
         let _ = writeln!(

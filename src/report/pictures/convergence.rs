@@ -121,13 +121,21 @@ pub fn convergence(traces: &[Trace], about: &About, answer: Option<f64>) -> Stri
     for (at, (name, value)) in panels.into_iter().enumerate() {
         let all = || traces.iter().flat_map(|trace| trace.rows().iter().map(|(_, row)| value(row)));
         let y = Scale::logarithmic(all().filter(|value| *value > FLOOR));
-        let panel = Panel { left: 90.0, top: 90.0 + 237.0 * at as f64, width: 640.0, height: 175.0, x: Scale::between(1.0, last as f64), y };
+        let panel = Panel {
+            left: 90.0,
+            top: 90.0 + 237.0 * at as f64,
+            width: 640.0,
+            height: 175.0,
+            x: Scale::between(1.0, last as f64),
+            y,
+        };
         let is_last = at == 2;
         panel.draw(&mut canvas, if is_last { "row of the log: iteration, or improving evaluation (nlopt)" } else { "" }, name);
         for (index, trace) in traces.iter().enumerate() {
             curve(&mut canvas, &panel, index, trace, value);
         }
-        let silent = traces.iter().filter(|trace| !trace.rows().is_empty() && trace.rows().iter().all(|(_, row)| value(row).is_nan()));
+        let silent =
+            traces.iter().filter(|trace| !trace.rows().is_empty() && trace.rows().iter().all(|(_, row)| value(row).is_nan()));
         let silent: Vec<&str> = silent.map(|trace| trace.backend.as_str()).collect();
         if !silent.is_empty() {
             canvas.note(724.0, panel.top + 14.0, "end", &format!("{} shows none", silent.join(", ")));

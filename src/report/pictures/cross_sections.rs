@@ -125,7 +125,8 @@ fn draw_cell(canvas: &mut Canvas, cell: &Cell, [left, top]: [f64; 2], size: f64,
         width_line(canvas, [x0, x1], foot + 14.0, high[0] - low[0]);
         height_line(canvas, left - 14.0, [y0, y1], high[1] - low[1]);
     }
-    let name = if enlarged { format!("{} (enlarged {}-fold)", cell.name, significant(largest / own, 2)) } else { cell.name.clone() };
+    let name =
+        if enlarged { format!("{} (enlarged {}-fold)", cell.name, significant(largest / own, 2)) } else { cell.name.clone() };
     let letters = size / 6.6;
     canvas.text(middle[0], top + size + 8.0, "middle", &cut(&name, letters));
     canvas.note(middle[0], top + size + 24.0, "middle", &cut(&cell.dimensions.join(", "), letters));

@@ -21,7 +21,8 @@ pub fn profiles(problem: &Problem, about: &About, start: &[f64], answer: &[f64])
     if count == 0 {
         return None;
     }
-    let more = if problem.profiles.len() > count { format!(": the first {count} of {}", problem.profiles.len()) } else { String::new() };
+    let more =
+        if problem.profiles.len() > count { format!(": the first {count} of {}", problem.profiles.len()) } else { String::new() };
     let mut canvas = Canvas::new(760.0, 70.0 + 250.0 * count as f64, &about.title, &format!("Profiles along the line{more}"));
     before_and_after(&mut canvas);
     canvas.path("M380 38h24", CONTROL);
