@@ -17,7 +17,7 @@ const FLOORS: &[&[&str]] = &[
     &["ribs", "mesh"],
     &["sections"],
     &["geometry", "splines", "expression"],
-    &["linear_algebra", "math"],
+    &["linear_algebra", "math", "files"],
 ];
 
 /// Arrows between rooms of one floor that the sketch allows.

@@ -22,6 +22,7 @@ pub mod ratio;
 pub mod resolve;
 pub mod settings;
 pub mod texts;
+pub mod words;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -61,6 +62,8 @@ pub struct Problem {
     pub ribs: Ribs,
     /// Constraint declarations, in the file's order.
     pub constraints: Vec<Constraint>,
+    /// The parameter `density`, which gives mass to volume in reports.
+    pub density: Option<f64>,
     /// Variables in the place of minima, maxima and absolute values: the last ones of [`Problem::variables`], in order.
     /// The constraints that bound them come last, too.
     pub auxiliaries: Vec<kinks::Auxiliary>,

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
+use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
@@ -25,6 +26,8 @@ pub struct Subject {
     pub class: Class,
     /// Tolerances and limits: the file's, unless the command line changed them.
     pub settings: Settings,
+    /// The file and its tables.
+    pub inputs: Inputs,
     /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
     pub warnings: Vec<String>,
     /// The model that is solved.
@@ -57,6 +60,8 @@ impl Subject {
             RunError::Input(mistakes.to_string(), list)
         })?;
         let mut subject = Subject::assemble(input.problem.without_kinks(), file, input.sha256)?;
+        subject.inputs = Inputs::new(input.files);
+        subject.about.changes = changes.to_vec();
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
         Ok(subject)
     }
@@ -76,6 +81,7 @@ impl Subject {
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
             warnings: problem.warnings.clone(),
+            changes: Vec::new(),
         };
         let too_dense = |error: AssemblyError| {
             let mistake = Mistake { file: Some(about.file.clone()), ..Mistake::of_command(error.to_string()) };
@@ -95,6 +101,7 @@ impl Subject {
         Ok(Subject {
             class,
             settings: problem.settings.clone(),
+            inputs: Inputs::new([file.to_path_buf()]),
             warnings: Vec::new(),
             about,
             model,

@@ -160,7 +160,7 @@ fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
         End::Invalid(error) => format!("ended where the model has no value ({error})"),
     };
     let point = match watch.best() {
-        _ if watch.proved().is_some() && !how.ends_with("passed") => "; the stop test passed".to_owned(),
+        _ if watch.proved().is_some() && !how.ends_with("passed") => "; its point passed the test".to_owned(),
         Some(best) if watch.is_infeasible() => format!("; rows are violated by up to {:.3e}", best.feasibility),
         _ => String::new(),
     };

@@ -16,6 +16,9 @@ use super::{Constraint, Limit, Problem, Scope, Sense};
 use crate::expression::operators::{Binary, Fold, Unary};
 use restate::Restating;
 
+/// Definitions looked into one inside another, in search of kinks.
+const DEFINITIONS: usize = 16;
+
 /// Items up to which a repeated constraint is written out where its kinks need variables of their own.
 const MOST_ITEMS: usize = 10_000;
 
@@ -70,6 +73,30 @@ impl Problem {
             constraint.left = self.written(&constraint.left, count);
         }
         written
+    }
+
+    /// What has a min, max or abs: the objective, or constraints by name.
+    pub fn kinks(&self) -> Vec<String> {
+        let objective = self.bends(&self.objective, 0).then(|| "the objective".to_owned());
+        let bent = |row: &&Constraint| self.bends(&row.left, 0) || row.right.formulas().any(|formula| self.bends(formula, 0));
+        let rows = self.constraints.iter().filter(bent).map(|row| format!("`{}`", row.name));
+        objective.into_iter().chain(rows).collect()
+    }
+
+    /// Whether there is a kink in a formula or the definitions it uses.
+    fn bends(&self, formula: &Formula, depth: usize) -> bool {
+        let go = |formula: &Formula| self.bends(formula, depth);
+        is_kink(formula)
+            || match formula {
+                Formula::Unary(_, inner) | Formula::Profile(_, inner) => go(inner),
+                Formula::Binary(_, left, right) => go(left) || go(right),
+                Formula::Fold(_, list) => list.iter().any(go),
+                Formula::Over { body, .. } => go(body),
+                Formula::Definition(d) if depth < DEFINITIONS => {
+                    self.definitions.get(*d as usize).is_some_and(|(_, inner)| self.bends(inner, depth + 1))
+                }
+                _ => false,
+            }
     }
 
     /// A formula with auxiliaries (variables from `first` on) replaced by what they stand for.
