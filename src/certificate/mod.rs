@@ -5,6 +5,7 @@
 mod candidates;
 mod farkas;
 mod feasibility;
+mod gap;
 mod higher_order;
 mod implied_box;
 mod lower_bound;
@@ -107,6 +108,11 @@ impl<'a> Certifier<'a> {
         let lost = lost_in_rounding(&point, &multipliers);
         if lost > self.tolerances.optimality {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
+        }
+        if self.is_stationary(&certificate)
+            && let Some(gain) = gap::beyond_the_slope(&point, &multipliers)
+        {
+            certificate.complementarity = certificate.complementarity.max(gain);
         }
         certificate.scope = Scope::of(self.class);
         self.second_order(&mut point, &multipliers, &mut certificate)?;
