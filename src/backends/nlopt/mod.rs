@@ -56,6 +56,13 @@ impl Backend for Nlopt {
         })
     }
 
+    /// SLSQP solves a dense least-squares problem of all variables and rows per evaluation; its flops are cheaper than entries.
+    fn work_per_evaluation(&self, model: &dyn Model) -> f64 {
+        let (n, m) = (model.meta().variables() as f64, model.meta().rows() as f64);
+        let is_dense = m > 0.0 && model.components().is_none();
+        super::entries(model) + if is_dense { n * n * (n + m) / 40.0 } else { 0.0 }
+    }
+
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution {
         let began = Instant::now();
         let mut solution = match self.refusal(job.algorithm, model).or_else(|| odd_start(model, job.start)) {
@@ -153,7 +160,7 @@ fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
         End::Invalid(error) => format!("ended where the model has no value ({error})"),
     };
     let point = match watch.best() {
-        _ if watch.proved().is_some() && !how.ends_with("passed") => "; the stop test passed".to_owned(),
+        _ if watch.proved().is_some() && !how.ends_with("passed") => "; its point passed the test".to_owned(),
         Some(best) if watch.is_infeasible() => format!("; rows are violated by up to {:.3e}", best.feasibility),
         _ => String::new(),
     };
