@@ -3,7 +3,8 @@
 use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
-use crate::crosscheck::{Agreement, Answer, Conflict, Status};
+use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
+use crate::model::Limit as AnyLimit;
 use crate::model::sample::Sample;
 
 fn model() -> Sample {
@@ -22,6 +23,7 @@ fn about(sense: Sense) -> About {
         units: vec![("length".into(), "m".into())],
         has_sections: true,
         warnings: Vec::new(),
+        changes: Vec::new(),
     }
 }
 
@@ -52,8 +54,16 @@ fn outcome() -> Outcome {
         seconds: 0.25,
         invalid: None,
     };
-    let answer =
-        Answer { backend: "argmin", solution, objective: Some(1.9), certificate: Some(certificate()), remarks: Vec::new() };
+    let answer = Answer {
+        backend: "argmin",
+        solution,
+        objective: Some(1.9),
+        certificate: Some(certificate()),
+        feasible: true,
+        attempt: 1,
+        gave_way: false,
+        remarks: Vec::new(),
+    };
     Outcome {
         status: Status::Certified,
         scope: Scope::Global,
@@ -77,7 +87,8 @@ fn text(
 ) -> String {
     let (about, model) = (about(sense), model());
     let volumes = Some(Volumes { total: 1.9, frustum: 1.9, prismatoid: 2.0 });
-    let findings = Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes };
+    let findings =
+        Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes, mass: None, utilisation: None };
     let mut out = Vec::new();
     write(&findings, &mut out).unwrap();
     String::from_utf8(out).unwrap()
@@ -88,8 +99,8 @@ fn tables_leave_open_bounds_empty() {
     let variables = text(Sense::Minimize, &outcome(), |findings, out| tables::variables(findings, out));
     assert_eq!(
         variables,
-        "name,lower,start,upper,argmin,active,multiplier,sensitivity\n\
-         x[1],0.5,1.0,,0.5,lower,0.0,0.0\nx[2],0.1,0.2,0.7,0.7,upper,1.0,-1.0\n"
+        "name,lower,start,upper,argmin,active,multiplier,sensitivity,value\n\
+         x[1],0.5,1.0,,0.5,lower,0.0,0.0,0.5\nx[2],0.1,0.2,0.7,0.7,upper,1.0,-1.0,0.7\n"
     );
     let constraints = text(Sense::Minimize, &outcome(), |findings, out| tables::constraints(findings, out));
     assert_eq!(constraints, "name,value,lower,upper,active,multiplier,sensitivity\nc1,0.35,0.35,,lower,-2.0,2.0\n");
@@ -130,7 +141,7 @@ fn the_summary_of_an_infeasible_problem_names_the_conflict() {
         violated_rows: vec![(0, 0.25)],
         rows: vec![0],
         bounds: vec![(1, true)],
-        relaxations: vec![(0, -0.25)],
+        alternatives: vec![LimitMove { limit: AnyLimit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
         minimal: true,
     };
     let infeasible = Outcome {

@@ -32,7 +32,7 @@ impl<'x> Trial<'x> {
             (lower.is_infinite() || value >= lower - scale(i, lower)) && (upper.is_infinite() || value <= upper + scale(i, upper))
         };
         let inside = |j: usize| {
-            let slack = tolerance * point.d[j];
+            let slack = tolerance * point.sizes[j];
             self.x[j] >= meta.lower[j] - slack && self.x[j] <= meta.upper[j] + slack
         };
         (0..self.x.len()).all(inside) && (0..self.rows.len()).all(meets)

@@ -140,12 +140,12 @@ pub(in crate::certificate) struct Hessian {
 }
 
 impl Hessian {
-    /// The same, its largest row of magnitudes being 1.
-    pub(in crate::certificate) fn normalised(&self) -> Hessian {
-        let largest = self.size.iter().fold(0.0, |most: f64, size| most.max(*size));
-        let unit = if largest > 0.0 { largest } else { 1.0 };
-        let share = |all: &[f64]| all.iter().map(|value| value / unit).collect();
-        Hessian { values: share(&self.values), size: share(&self.size) }
+    /// The diagonal of S, length n.
+    pub(in crate::certificate) fn diagonal(&self, point: &Point<'_>) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.size.len()];
+        let entries = point.meta().hessian.iter().zip(&self.values);
+        entries.filter(|((row, column), _)| row == column).for_each(|((row, _), value)| diagonal[row] += value);
+        diagonal
     }
 
     pub(in crate::certificate) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
@@ -162,7 +162,8 @@ impl Hessian {
             }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
-                let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());
+                // In this order: the square of a size far out overflows by itself.
+                let entry = part[at] * point.sizes[row] / point.scale() * point.sizes[column];
                 hessian.values[at] += entry;
                 hessian.size[row] += entry.abs();
                 if row != column {

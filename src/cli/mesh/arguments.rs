@@ -200,6 +200,9 @@ pub struct Ribs {
     pub volume: Law,
     #[command(flatten)]
     pub limits: RibLimits,
+    /// Overwrite files of the folder that were edited
+    #[arg(long)]
+    pub force: bool,
     /// Title of the problem
     #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,

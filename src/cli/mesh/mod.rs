@@ -2,6 +2,7 @@
 
 mod arguments;
 mod show;
+mod spare;
 mod values;
 
 use serde::Serialize;
@@ -16,9 +17,11 @@ use ribopt::mesh::commands;
 use ribopt::mesh::features::FeatureOptions;
 use ribopt::mesh::{reconstruct, ribs, smooth};
 use ribopt::report::result::write_value;
+use ribopt::run::RunError;
 
 /// Does one stage and returns the exit code.
 pub fn run(stage: &Stage) -> Result<u8, Failure> {
+    spare::spare(stage).map_err(RunError::from)?;
     match stage {
         Stage::Check(arguments) => check(arguments),
         Stage::Reconstruct(arguments) => reconstruct(arguments),
@@ -97,6 +100,7 @@ fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
     let options = ribs::Options {
         bounds: arguments.bounds.clone(),
         prismatoid: arguments.volume == Law::Prismatoid,
+        force: arguments.force,
         title: arguments.title.clone().unwrap_or(defaults.title.clone()),
         ..with_limits(defaults, &arguments.limits)
     };

@@ -1,6 +1,8 @@
 //! Block principal pivoting (Portugal, Júdice, Vicente 1994: "A comparison of block pivoting and interior-point algorithms for
 //! linear least squares problems with nonnegative variables") on the augmented system, which stays sparse where BᵀB does not.
 
+use std::time::Instant;
+
 use super::problem::{Column, PROXIMAL, Stationary, residual};
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
@@ -9,8 +11,13 @@ const REPETITIONS: usize = 12;
 
 pub(super) type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
 
-pub(super) fn pivoted(g: &[f64], columns: &[Column<'_>], build: Build) -> Result<Vec<f64>, FactorizationError> {
-    let mut pivoting = Pivoting::new(g, columns, Augmented::new(g, columns, build)?);
+pub(super) fn pivoted(
+    g: &[f64],
+    columns: &[Column<'_>],
+    until: Option<Instant>,
+    build: Build,
+) -> Result<Vec<f64>, FactorizationError> {
+    let mut pivoting = Pivoting::new(g, columns, until, Augmented::new(g, columns, build)?);
     repeated(columns.len(), |centre| pivoting.solve(centre))
 }
 
@@ -34,13 +41,15 @@ pub(super) struct Pivoting<'a, S> {
     columns: &'a [Column<'a>],
     basic: Vec<bool>,
     is_new: bool,
+    /// When to take what is there.
+    until: Option<Instant>,
     method: S,
 }
 
 impl<'a, S: Stationary> Pivoting<'a, S> {
-    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>], method: S) -> Self {
+    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>], until: Option<Instant>, method: S) -> Self {
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Pivoting { g, columns, basic, is_new: true, method }
+        Pivoting { g, columns, basic, is_new: true, until, method }
     }
 
     /// The minimiser with the proximal term around `centre`.
@@ -49,7 +58,7 @@ impl<'a, S: Stationary> Pivoting<'a, S> {
         let mut y = self.stationary(centre)?;
         for _ in 0..(20 + 3 * self.columns.len()).min(300) {
             let wrong = self.wrong(&y, centre);
-            let Some(&last) = wrong.last() else { break };
+            let Some(&last) = wrong.last().filter(|_| !is_over(self.until)) else { break };
             if wrong.len() < fewest {
                 (fewest, patience) = (wrong.len(), 5);
             } else {
@@ -88,15 +97,20 @@ impl<'a, S: Stationary> Pivoting<'a, S> {
     }
 }
 
+/// Whether that moment has come.
+pub(super) fn is_over(until: Option<Instant>) -> bool {
+    until.is_some_and(|until| Instant::now() >= until)
+}
+
 /// From [I B; Bᵀ −(T²+ε²)]·[−r; y] = [−g; −ε²·centre], over the basic columns.
-struct Augmented<'a> {
+pub(super) struct Augmented<'a> {
     g: &'a [f64],
     columns: &'a [Column<'a>],
     matrix: Symmetric,
 }
 
 impl<'a> Augmented<'a> {
-    fn new(g: &'a [f64], columns: &'a [Column<'a>], build: Build) -> Result<Self, FactorizationError> {
+    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>], build: Build) -> Result<Self, FactorizationError> {
         let p = g.len() as u32;
         let mut positions: Vec<_> = (0..p + columns.len() as u32).map(|k| (k, k)).collect();
         for (k, column) in columns.iter().enumerate() {

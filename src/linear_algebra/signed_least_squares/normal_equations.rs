@@ -126,10 +126,10 @@ mod tests {
             column(&[(3, 1.0)], 0.0, 0.0),
         ];
         let mut room = NormalEquations::default();
-        let (quick, slow) = (solve_one_of_many(&g, &columns, &mut room).unwrap(), solve(&g, &columns).unwrap());
+        let (quick, slow) = (solve_one_of_many(&g, &columns, &mut room, None).unwrap(), solve(&g, &columns, None).unwrap());
         assert!(quick.iter().zip(&slow).all(|(a, b)| (a - b).abs() < 1e-12), "{quick:?} {slow:?}");
         // The room serves again.
-        let single = solve_one_of_many(&[-2.0], &[column(&[(0, 1.0)], 1.0, 0.0)], &mut room).unwrap();
+        let single = solve_one_of_many(&[-2.0], &[column(&[(0, 1.0)], 1.0, 0.0)], &mut room, None).unwrap();
         assert_eq!(single, [2.0]);
     }
 
@@ -138,7 +138,7 @@ mod tests {
         let twice = [column(&[(0, 1.0), (1, 0.5)], 1.0, 0.0), column(&[(0, 1.0), (1, 0.5)], 1.0, 0.0)];
         let mut room = NormalEquations::default();
         assert!(room.fill(&[-2.0, -1.0], &twice) && !room.factorise(&[true, true]));
-        let y = solve_one_of_many(&[-2.0, -1.0], &twice, &mut room).unwrap();
+        let y = solve_one_of_many(&[-2.0, -1.0], &twice, &mut room, None).unwrap();
         assert!((y[0] + y[1] - 2.0).abs() < 1e-9, "{y:?}");
     }
 }

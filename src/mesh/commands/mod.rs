@@ -12,7 +12,7 @@ use serde::Serialize;
 pub use solids::{plot, solids};
 
 use super::closest::Surface;
-use super::formats::{self, FormatError, create, ending};
+use super::formats::{self, FormatError, ending};
 use super::invariants::{Invariants, measure};
 use super::network::{Network, NetworkError};
 use super::section::{self, PieceReport, Plane};
@@ -279,11 +279,7 @@ pub fn write_report(path: &Path, report: &impl Serialize) -> Outcome<()> {
 }
 
 fn write_file(path: &Path, write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -> Outcome<()> {
-    let written = create(path).and_then(|mut file| {
-        write(&mut file)?;
-        std::io::Write::flush(&mut file)
-    });
-    Ok(written.map_err(|cause| FormatError::io(path, cause))?)
+    Ok(crate::files::whole::write(path, write).map_err(|cause| FormatError::io(path, cause))?)
 }
 
 #[cfg(test)]

@@ -11,8 +11,7 @@ mod ply;
 mod stl;
 mod vtu;
 
-use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 pub use obj_read::read_obj;
@@ -23,6 +22,7 @@ pub use stl::{read_stl, write_stl};
 pub use vtu::{CellData, write_vtu};
 
 use super::{PolygonMesh, Vector};
+use crate::files::{self, whole};
 
 /// Why a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -67,12 +67,12 @@ pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
     if !["obj", "ply", "off", "stl"].contains(&kind.as_str()) {
         return Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .ply, .off, .stl" });
     }
-    let mut file = BufReader::new(File::open(path).map_err(|cause| FormatError::io(path, cause))?);
+    let bytes = files::read(path).map_err(|cause| FormatError::io(path, cause))?;
     let mesh = match kind.as_str() {
-        "obj" => read_obj(file),
-        "ply" => read_ply(file),
-        "off" => read_off(file),
-        _ => read_stl(&mut file),
+        "obj" => read_obj(bytes.as_slice()),
+        "ply" => read_ply(bytes.as_slice()),
+        "off" => read_off(bytes.as_slice()),
+        _ => read_stl(&mut Cursor::new(bytes)),
     };
     mesh.map_err(|cause| FormatError::In { path: path.display().to_string(), cause: Box::new(cause) })
 }
@@ -94,23 +94,12 @@ pub fn check_writable(path: &Path) -> Result<(), FormatError> {
 /// Where the ending names no format or the file cannot be written.
 pub fn write(path: &Path, mesh: &PolygonMesh, data: &[CellData]) -> Result<(), FormatError> {
     check_writable(path)?;
-    let written = create(path).and_then(|mut out| {
-        match ending(path).as_str() {
-            "obj" => write_obj(&mut out, mesh)?,
-            "stl" => write_stl(&mut out, mesh)?,
-            _ => write_vtu(&mut out, mesh, data)?,
-        }
-        out.flush()
+    let written = whole::write(path, |mut out| match ending(path).as_str() {
+        "obj" => write_obj(&mut out, mesh),
+        "stl" => write_stl(&mut out, mesh),
+        _ => write_vtu(&mut out, mesh, data),
     });
     written.map_err(|cause| FormatError::io(path, cause))
-}
-
-/// Opens a file for writing, making its folder where there is none.
-pub(crate) fn create(path: &Path) -> std::io::Result<BufWriter<File>> {
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder)?;
-    }
-    Ok(BufWriter::new(File::create(path)?))
 }
 
 /// The lower-case ending of a file's name.

@@ -5,9 +5,11 @@
 //! ∫ M·m/(E·I) ds, may be at most span/sag_ratio. The integral is `sag` per rib, with 1/I by the trapezoidal rule between
 //! its sections. A closed line counts as two beams of half its length. Slenderness, taper and thickness limits come on top.
 
+mod folder;
 mod kinds;
 mod text;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 
@@ -16,7 +18,6 @@ use serde::Serialize;
 pub use kinds::SectionKind;
 
 use super::formats::FormatError;
-use super::formats::create;
 use super::network::{Network, Rib, write_geometry};
 
 /// Bounds and start of one dimension, the same at all sections.
@@ -56,7 +57,12 @@ pub struct Options {
     pub thickness: f64,
     /// The title.
     pub title: String,
+    /// Overwrite files that were edited.
+    pub force: bool,
 }
+
+/// What the folder holds.
+pub const FILES: [&str; 4] = ["problem.toml", "sections.csv", "ribs.csv", "geometry.csv"];
 
 impl Options {
     /// The defaults for a kind.
@@ -72,6 +78,7 @@ impl Options {
             taper_slope: 0.1,
             thickness: kind.thickness(),
             title: "Ribs of a quad mesh".into(),
+            force: false,
         }
     }
 }
@@ -94,6 +101,8 @@ pub enum RibsError {
     Crossed { dimension: String, lower: f64, upper: f64 },
     #[error("there are no ribs: the mesh has no edges that carry any; flag some as l elements, or none for all")]
     NoRibs,
+    #[error("{0} was edited since `mesh ribs` wrote it; choose another folder, or give --force to overwrite it")]
+    Edited(String),
     #[error(transparent)]
     Write(#[from] FormatError),
 }
@@ -111,6 +120,8 @@ pub struct Report {
     pub lines: usize,
     /// Length of all ribs: the length of all rib edges.
     pub length: f64,
+    /// SHA-256 of every file, by which edited ones are known.
+    pub written: BTreeMap<String, String>,
 }
 
 /// Writes the folder.
@@ -122,16 +133,20 @@ pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Res
         return Err(RibsError::NoRibs);
     }
     let bounds = checked_bounds(options)?;
-    let save = |name: &str, write: &dyn Fn(&mut dyn Write) -> Result<(), csv::Error>| {
-        let path = folder.join(name);
-        let mut out = create(&path).map_err(|cause| FormatError::io(&path, cause))?;
-        let written = write(&mut out).map_err(std::io::Error::other).and_then(|()| out.flush());
-        written.map_err(|cause| RibsError::Write(FormatError::io(&path, cause)))
+    let mut all: Vec<(&str, Vec<u8>)> = Vec::new();
+    let mut save = |name: &'static str, write: &dyn Fn(&mut dyn Write) -> Result<(), csv::Error>| {
+        let mut content = Vec::new();
+        let failed = |cause: csv::Error| FormatError::io(&folder.join(name), std::io::Error::other(cause));
+        write(&mut content).map_err(failed)?;
+        all.push((name, content));
+        Ok::<(), RibsError>(())
     };
-    save("problem.toml", &|out| Ok(out.write_all(text::problem(options).as_bytes())?))?;
-    save("sections.csv", &|out| write_sections(out, network, options.kind, &bounds))?;
-    save("ribs.csv", &|out| write_ribs(out, network, options))?;
-    save("geometry.csv", &|out| write_geometry(out, network.ribs.iter().map(|rib| &rib.geometry)))?;
+    let [problem, sections, ribs, geometry] = FILES;
+    save(problem, &|out| Ok(out.write_all(text::problem(options).as_bytes())?))?;
+    save(sections, &|out| write_sections(out, network, options.kind, &bounds))?;
+    save(ribs, &|out| write_ribs(out, network, options))?;
+    save(geometry, &|out| write_geometry(out, network.ribs.iter().map(|rib| &rib.geometry)))?;
+    let written = folder::leave(folder, &all, options.force)?;
     let mut lines: Vec<&str> = network.ribs.iter().map(|rib| rib.geometry.line.as_str()).collect();
     lines.dedup();
     Ok(Report {
@@ -140,6 +155,7 @@ pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Res
         variables: network.sections.len() * bounds.iter().filter(|b| b.lower < b.upper).count(),
         lines: lines.len(),
         length: network.ribs.iter().map(|rib| rib.geometry.length()).sum(),
+        written,
     })
 }
 

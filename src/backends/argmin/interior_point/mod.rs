@@ -45,7 +45,7 @@ use attempts::Attempts;
 use begin::Beginning;
 use engine::{Ending, Engine};
 use form::Source;
-pub(super) use start::{pushed, towards_middle};
+pub(super) use start::pushed;
 
 /// A primal-dual interior point with a filter line search.
 pub(super) struct InteriorPoint<'a> {
@@ -153,7 +153,7 @@ impl Engine<'_> {
                 self.form.tighten();
                 // A run told to stop keeps the point as it is.
                 let _ = self.polish();
-                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
+                (Termination::Converged, format!("converged: optimality error {:.1e}", self.errors.largest()), None)
             }
             Ending::Infeasible => {
                 let violation = self.form.violation(&self.iterate.rows);
