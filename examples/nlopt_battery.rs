@@ -25,8 +25,8 @@ enum Values {
     Inconsistent,
     /// Gradients that are zero everywhere.
     ZeroGradients,
-    /// Numbers around this power of ten.
-    Magnitude(i32),
+    /// Numbers around this one.
+    Magnitude(f64),
     /// No number, away from the start.
     NotANumber,
 }
@@ -97,7 +97,9 @@ fn oddities(n: usize) -> Vec<Shape> {
         Shape { fixed: n + 6, ..Shape::new("fixed variables, m_eq = n + 6", n, 2, n + 6) },
         Shape { fixed: n, ..Shape::new("all variables fixed", 0, 2, n) },
     ];
-    all.extend([-320, -150, 99, 101, 200, 307].map(|power| odd(&format!("numbers of 1e{power}"), Values::Magnitude(power))));
+    all.extend(
+        [1e-320, 1e-150, 1e99, 1e101, 1e200, 1e307].map(|size| odd(&format!("numbers of {size:.0e}"), Values::Magnitude(size))),
+    );
     for (class, bounds) in
         [("open", OPEN), ("half open", [-2.0, f64::INFINITY]), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])]
     {
@@ -141,7 +143,7 @@ impl Battery {
     }
 
     fn unit(&self) -> f64 {
-        if let Values::Magnitude(power) = self.values { 10f64.powi(power) } else { 1.0 }
+        if let Values::Magnitude(size) = self.values { size } else { 1.0 }
     }
 
     fn check(&self, x: &[f64]) -> Result<(), EvaluationError> {

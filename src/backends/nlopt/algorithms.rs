@@ -38,8 +38,10 @@ pub(super) struct Algorithm {
     pub steps_back: bool,
     /// The numbers it stores for n variables and m rows, beside some for each variable and row.
     pub storage: fn(f64, f64) -> f64,
-    /// Operations of one iteration for n variables and m rows.
+    /// Operations of one evaluation for n variables and m rows, those of the step that leads to it included.
     pub work: fn(f64, f64) -> f64,
+    /// Evaluations of one iteration.
+    pub evaluations_per_iteration: f64,
     /// Evaluations per variable after which it is stopped, where it would not stop by itself.
     pub evaluations_per_variable: Option<u64>,
 }
@@ -58,6 +60,7 @@ const LOCAL: Algorithm = Algorithm {
     storage: |n, m| n + m,
     // luksan: ten pairs of vectors, each used twice.
     work: |n, _| 40.0 * n,
+    evaluations_per_iteration: 1.0,
     evaluations_per_variable: None,
 };
 
@@ -94,7 +97,9 @@ pub(super) const TABLE: [Algorithm; 11] = [
         rows: Rows::All,
         // auglag.c, `gradtmp`.
         storage: |n, m| n * m,
-        work: |n, m| n * (40.0 + m),
+        // The dense Jacobian is made, copied and used; an iteration is a minimisation of its own.
+        work: |n, m| n * (40.0 + 4.0 * m),
+        evaluations_per_iteration: 200.0,
         ..LOCAL
     },
     Algorithm { name: "lbfgs", code: "LD_LBFGS", ..LOCAL },
@@ -214,7 +219,8 @@ impl Algorithm {
     pub fn affordable(&self, meta: &Meta, wanted: u64) -> u64 {
         let size = Size::of(meta);
         let fitting = WORK / (self.work)(size.variables as f64, size.rows() as f64).max(1.0);
-        if self.obstacle(meta).is_some() || fitting < LEAST_ITERATIONS { 0 } else { wanted.min(fitting as u64) }
+        let least = LEAST_ITERATIONS * self.evaluations_per_iteration;
+        if self.obstacle(meta).is_some() || fitting < least { 0 } else { wanted.min(fitting as u64) }
     }
 }
 
