@@ -17,8 +17,20 @@ pub trait Backend: Sync {
     /// Why this algorithm cannot take this model, with those that can; `None` where it can (or the name is `auto`).
     fn refusal(&self, algorithm: &str, model: &dyn Model) -> Option<String>;
 
+    /// What one evaluation costs this backend, its own algebra included, in entries of values and derivatives touched. An
+    /// estimate that orders backends and bounds their shares, the same on every machine.
+    fn work_per_evaluation(&self, model: &dyn Model) -> f64 {
+        entries(model)
+    }
+
     /// Minimises the model. Never panics; failures are solutions with a termination that says so.
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution;
+}
+
+/// Values, gradient, Jacobian and Hessian: entries touched by one look at a model.
+pub fn entries(model: &dyn Model) -> f64 {
+    let meta = model.meta();
+    (1 + meta.variables() + meta.rows() + meta.jacobian.len() + meta.hessian.len()) as f64
 }
 
 /// Says whether a point passes the certificate.

@@ -3,12 +3,15 @@
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
 mod candidates;
+mod farkas;
 mod feasibility;
+mod gap;
 mod higher_order;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
 mod point;
+mod propagation;
 mod runaway;
 mod scales;
 mod second_order;
@@ -25,7 +28,10 @@ use point::{Origin, Point};
 use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
+pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
+pub use propagation::impossible_row;
+pub use second_order::SecondOrder;
 pub use types::{Certificate, Scope, Side, Tolerances};
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
@@ -103,6 +109,11 @@ impl<'a> Certifier<'a> {
         if lost > self.tolerances.optimality {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
+        if self.is_stationary(&certificate)
+            && let Some(gain) = gap::beyond_the_slope(&point, &multipliers)
+        {
+            certificate.complementarity = certificate.complementarity.max(gain);
+        }
         certificate.scope = Scope::of(self.class);
         self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
@@ -169,21 +180,29 @@ impl<'a> Certifier<'a> {
         }
         let hessian = self.hessian(point, multipliers)?;
         let point = &*point;
-        let Curvature { escape, singular, dependent } = second_order::examine(point, &active, &hessian);
-        let bends_down = escape.is_some();
-        // Convex problems have no inflections.
-        let descent = match bends_down || self.class.is_global() {
-            true => None,
-            false => higher_order::find(point, &active, &hessian, &self.tolerances).unwrap_or_default(),
+        let Curvature { escape, singular, dependent, undecided, flat } =
+            second_order::examine(point, &active, &hessian, self.class.is_global());
+        // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
+        let is_proof = |direction: &Vec<f64>| {
+            !(dependent && self.bends_by_choice(point, multipliers))
+                || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
+        };
+        let bends_down = escape.as_ref().is_some_and(is_proof);
+        let undecided = if escape.is_some() && !bends_down { Some(0) } else { undecided };
+        // Convex problems have no inflections, and need no second order: the first proves.
+        let (undecided, descent) = match escape.is_some() || self.class.is_global() {
+            true => (undecided.filter(|_| !self.class.is_global()), None),
+            false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
         let falls_further = descent.is_some();
         let runaway = match bends_down || falls_further {
             true => Vec::new(),
             false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
-        certificate.certified = !bends_down && !falls_further && runaway.is_empty();
+        certificate.certified = !bends_down && !falls_further && undecided.is_none() && runaway.is_empty();
         certificate.escape = escape.or(descent);
         (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
+        certificate.undecided = undecided.filter(|_| !falls_further);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
     }
@@ -225,6 +244,25 @@ impl<'a> Certifier<'a> {
         let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
         point.resize_by_curvature(|j| diagonal[j]);
         Hessian::of(point, multipliers)
+    }
+
+    /// Whether ∇²L depends on the multipliers.
+    fn bends_by_choice(&self, point: &Point<'_>, multipliers: &Multipliers) -> bool {
+        multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
+    }
+
+    /// What the dense, the sparse and the component-wise second-order test say at `x`, whether it is stationary or not: the three
+    /// prove the same in different ways.
+    ///
+    /// # Errors
+    /// The model has no value or derivative at `x`.
+    pub fn second_order_by_every_test(&self, x: &[f64]) -> Result<[SecondOrder; 3], EvaluationError> {
+        let point = Point::new(&self.origin, x)?;
+        let multipliers = multipliers::find(&point, None);
+        let feasibility = feasibility::of(&point, self.tolerances.constraint);
+        let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
+        let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
+        Ok(second_order::by_every_test(&point, &active, &Hessian::of(&point, &multipliers)?))
     }
 
     fn is_stationary(&self, certificate: &Certificate) -> bool {

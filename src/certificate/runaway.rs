@@ -33,7 +33,7 @@ pub(super) fn variables(
         return Vec::new();
     }
     let choice = Choice::all(point, active);
-    let pivots = pivots(point, hessian, &choice);
+    let directions = directions(point, hessian, &choice);
     let follows = choice.free.len() + choice.held.len() <= LARGEST;
     let is_feasible =
         |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
@@ -51,7 +51,10 @@ pub(super) fn variables(
             is_feasible: &is_feasible,
         };
         let valley = Valley::new(site);
-        pivots.iter().copied().find(|&j| [1.0, -1.0].into_iter().any(|direction| valley.runs_off(j, direction)))
+        let both = directions
+            .iter()
+            .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
+        both.into_iter().find(|direction| valley.runs_off(direction))
     };
     let found = if follows {
         // Far out, multipliers may be too small to tell which rows push.
@@ -61,7 +64,7 @@ pub(super) fn variables(
         runs_off(&[], &[])
     };
     match found {
-        Some(j) => vec![j],
+        Some(direction) => moving(point, &direction),
         None => towards_bounds(point, tolerances.constraint),
     }
 }
@@ -72,28 +75,45 @@ fn resting_limit(point: &Point<'_>, i: usize) -> f64 {
     if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
 }
 
-/// The variables that move most along flat directions.
-fn pivots(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<usize> {
+/// The variables that take part in a direction.
+fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
+    let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
+    let most = (0..direction.len()).map(share).fold(0.0, f64::max);
+    (0..direction.len()).filter(|&j| share(j) > 1e-3 * most).collect()
+}
+
+/// Flat directions, each as it is and its variables that move most one by one; then the ways that have led here, from the start
+/// and from zero.
+fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<f64>> {
     let meta = point.meta();
     let is_open = |&j: &usize| meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY;
-    let mut found = Vec::new();
+    let (mut found, mut axes) = (Vec::new(), Vec::new());
     if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
         let (free, held) = (choice.loose_variables(), choice.strict_rows());
-        let directions = Kkt::new(point, hessian, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
-        for direction in directions.unwrap_or_default() {
+        let flat = Kkt::new(point, hessian, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        for direction in flat.unwrap_or_default() {
             let share = |j: &usize| (direction[*j] / point.sizes[*j]).abs();
             let mut open: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
             open.sort_by(|a, b| share(b).total_cmp(&share(a)));
-            found.extend(open.into_iter().take(2));
+            axes.extend(open.into_iter().take(2));
+            found.push(direction);
+        }
+        if !found.is_empty() {
+            found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
+            found.push(point.x.to_vec());
         }
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));
-        found.extend(flat.into_iter().take(FOLLOWED));
+        axes.extend(flat);
     }
     let mut seen = std::collections::HashSet::new();
-    found.retain(|j| seen.insert(*j));
-    found.truncate(FOLLOWED);
+    axes.retain(|j| seen.insert(*j));
+    found.extend(axes.into_iter().take(FOLLOWED).map(|j| {
+        let mut axis = vec![0.0; meta.variables()];
+        axis[j] = point.plain_sizes()[j];
+        axis
+    }));
     found
 }
 
@@ -122,6 +142,9 @@ fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
         return Vec::new();
     }
     let level = 64.0 * f64::EPSILON * point.objective.abs();
-    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(|share| value(share).is_some_and(|f| f <= point.objective + level));
+    // So near that no number lies between: as near as the bound itself.
+    let has_arrived = |share: f64| near.iter().all(|&(j, bound)| bound + share * (point.x[j] - bound) == bound);
+    let stays = |share: f64| has_arrived(share) || value(share).is_some_and(|f| f <= point.objective + level);
+    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(stays);
     if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
 }

@@ -3,7 +3,7 @@
 mod paths;
 
 use super::Answer;
-use super::attempt::{Contestant, Referee};
+use super::session::{Session as Referee, Solver as Contestant};
 use crate::model::{Meta, Model, Rebounded};
 
 /// How the objective behaves along a feasible way.

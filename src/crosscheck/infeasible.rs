@@ -1,72 +1,85 @@
-//! No feasible point was found: the elastic phase, and which limits conflict.
+//! No feasible point was found: the elastic phase, what proves that there is none, which limits conflict, and which single moves
+//! are enough.
 
 mod filter;
+mod moves;
 
-use std::time::Instant;
+use std::cell::RefCell;
 
 use super::Conflict;
-use super::attempt::{Contestant, Referee};
+use super::ledger::Ledger;
 use super::seeds::Seeds;
-use crate::certificate::{Certificate, Certifier};
+use super::session::{Session, Solver};
+use super::work::{self, Allowance};
+use crate::certificate::{Certificate, Certifier, contradiction};
 use crate::model::{Elastic, Model};
-use filter::Core;
+use filter::{Core, Member};
 
 /// Less than this share of a variable's size is rounding.
 const NEGLIGIBLE: f64 = 1e-6;
+/// Multipliers below this, relative, are noise.
+const NOISE: f64 = 1e-6;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
-/// Seconds after which no further start is tried.
-const STARTS_SECONDS: f64 = 3.0;
-/// Seconds for one elastic solve at the most.
-const SOLVE_SECONDS: f64 = 60.0;
 
 /// What the elastic phase found.
 pub(super) enum Elasticity {
     /// A feasible point, in the user's variables.
     Feasible(Vec<f64>),
-    /// The least violation, proved stationary.
-    Infeasible { x: Vec<f64>, conflict: Conflict },
+    /// The least violation, stationary; `proved` where no point at all meets the limits.
+    Infeasible { x: Vec<f64>, conflict: Conflict, proved: bool },
     /// A point of little violation, not proved least.
     Unproved(Vec<f64>),
 }
 
-/// Minimises the violation of all rows, from the point given and, unless the class makes one start enough, from seeded ones.
-pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], near: &[f64]) -> Option<Elasticity> {
-    let work = Work::new(referee, contestants);
-    let all: Vec<usize> = (0..work.model.meta().rows()).collect();
-    if all.is_empty() {
-        return None;
-    }
-    let mut seeds = Seeds::new(2);
-    let more = if referee.task.class.is_global() { 0 } else { STARTS };
-    let starts = std::iter::once(work.inward(near)).chain((0..more).map(|_| seeds.point(work.model.meta())));
-    let (begun, mut best) = (Instant::now(), None::<Relaxed>);
-    for start in starts {
-        if referee.clock.is_over() || (best.is_some() && begun.elapsed().as_secs_f64() > STARTS_SECONDS) {
-            break;
-        }
-        let Some(relaxed) = work.relax(&all, &start) else { continue };
-        if work.is_feasible(&relaxed.x) {
-            return Some(Elasticity::Feasible(work.outward(&relaxed.x)));
-        }
-        if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
-            best = Some(relaxed);
-        }
-    }
-    let best = best?;
-    let x = work.outward(&best.x);
-    if !best.certificate.certified {
-        return Some(Elasticity::Unproved(x));
-    }
-    let conflict = work.conflict(&best, &x);
-    Some(Elasticity::Infeasible { x, conflict })
+/// Minimises the violation: of the linear rows alone, whose contradiction would be a proof, then of all rows, from the point given
+/// and, unless the class makes one start enough, from seeded ones.
+pub(super) fn examine(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticity> {
+    look(ledger, near, false)
 }
 
-/// The model backends work on: the substituted one, where there is one (there, geometric programs are convex).
+/// The same where linear rows are known to contradict one another.
+pub(super) fn explain(ledger: &Ledger<'_, '_>, near: &[f64]) -> Option<Elasticity> {
+    look(ledger, near, true)
+}
+
+fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity> {
+    let work = Work::new(ledger);
+    let meta = work.model.meta();
+    let all: Vec<usize> = (0..meta.rows()).collect();
+    if all.is_empty() || work.session.clock.is_over() {
+        return None;
+    }
+    let start = work.inward(near);
+    let linear: Vec<usize> = all.iter().copied().filter(|&i| meta.row_is_linear.get(i).copied().unwrap_or(false)).collect();
+    if !work.is_global() && !linear.is_empty() && linear.len() < all.len() {
+        let relaxed = work.relax(&linear, &start).map(|relaxed| work.in_own_scales(&linear, relaxed));
+        let relaxed = relaxed.filter(|relaxed| known || work.is_contradiction(relaxed));
+        if let Some(relaxed) = relaxed {
+            return Some(work.infeasible(&relaxed, true));
+        }
+    }
+    let best = match work.least_violation(&all, start)? {
+        Least::Feasible(z) if known => work.relax(&all, &z)?,
+        Least::Feasible(z) => return Some(Elasticity::Feasible(work.outward(&z))),
+        Least::Violation(best) => work.in_own_scales(&all, best),
+    };
+    let proved = known || work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
+    if !proved && !best.certificate.certified {
+        return Some(Elasticity::Unproved(work.outward(&best.x)));
+    }
+    Some(work.infeasible(&best, proved))
+}
+
+/// The model backends work on, and what may be spent on it.
 struct Work<'a> {
-    referee: &'a Referee<'a>,
-    contestants: &'a [Contestant<'a>],
+    session: &'a Session<'a>,
+    /// The cheapest first.
+    solvers: Vec<Solver<'a>>,
     model: &'a dyn Model,
+    allowance: RefCell<Allowance>,
+    /// What explains the minimum may spend, each of its phases.
+    explanation: f64,
 }
 
 /// An elastic minimum.
@@ -74,8 +87,10 @@ struct Relaxed {
     x: Vec<f64>,
     violation: f64,
     certificate: Certificate,
-    /// Rows with multipliers: without them the violation could shrink.
-    carriers: Vec<usize>,
+    /// Multipliers of the model's rows, length m.
+    multipliers: Vec<f64>,
+    /// Rows with multipliers, and the side they give way on: without them the violation could shrink.
+    carriers: Vec<(usize, bool)>,
 }
 
 impl Relaxed {
@@ -84,23 +99,98 @@ impl Relaxed {
     }
 }
 
+/// Where the elastic phase ended.
+enum Least {
+    Feasible(Vec<f64>),
+    Violation(Relaxed),
+}
+
 impl<'a> Work<'a> {
-    fn new(referee: &'a Referee<'a>, contestants: &'a [Contestant<'a>]) -> Self {
-        let task = referee.task;
-        Work { referee, contestants, model: task.substitution.map_or(task.model, |other| other.model()) }
+    fn new(ledger: &Ledger<'a, '_>) -> Self {
+        let session = ledger.session;
+        // Helper solves are many: the cheapest backend first, whatever the order of the others.
+        let mut solvers = ledger.solvers.to_vec();
+        solvers.sort_by(|&a, &b| session.cost(a).total_cmp(&session.cost(b)));
+        let cost = solvers.iter().map(|&solver| session.cost(solver)).fold(f64::INFINITY, f64::min);
+        let first = ledger.least_first_work();
+        let allowance = RefCell::new(Allowance::new(work::elastic_phase(first, cost)));
+        Work { session, solvers, model: session.working_model(), allowance, explanation: work::explanation(first, cost) }
+    }
+
+    /// Whether the class makes every stationary point of the elastic problem its least.
+    fn is_global(&self) -> bool {
+        self.session.task.class.is_global()
     }
 
     fn inward(&self, x: &[f64]) -> Vec<f64> {
-        self.referee.task.substitution.map_or_else(|| x.to_vec(), |other| other.inward(x))
+        self.session.task.substitution.map_or_else(|| x.to_vec(), |other| other.inward(x))
     }
 
     fn outward(&self, z: &[f64]) -> Vec<f64> {
-        self.referee.task.substitution.map_or_else(|| z.to_vec(), |other| other.outward(z))
+        let mut x = self.session.task.substitution.map_or_else(|| z.to_vec(), |other| other.outward(z));
+        self.session.task.model.meta().clamp(&mut x);
+        x
     }
 
     fn is_feasible(&self, z: &[f64]) -> bool {
-        let worst = self.referee.judge.primal_infeasibility(&self.outward(z));
-        worst.is_some_and(|worst| worst <= self.referee.tolerances.constraint)
+        let worst = self.session.judge.primal_infeasibility(&self.outward(z));
+        worst.is_some_and(|worst| worst <= self.session.tolerances.constraint)
+    }
+
+    /// Begins a phase with work of its own.
+    fn refill(&self) {
+        *self.allowance.borrow_mut() = Allowance::new(self.explanation);
+    }
+
+    fn is_over(&self) -> bool {
+        self.session.clock.is_over() || self.allowance.borrow().is_spent()
+    }
+
+    /// Solves a helper model with what is left of the phase's work.
+    fn solve(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64]) -> crate::backends::Solution {
+        let left = self.allowance.borrow().single();
+        let budget = self.session.budget(solver, model, left);
+        let solution = self.session.solve_aside(solver, model, start, budget);
+        self.allowance.borrow_mut().spend(solution.evaluations as f64 * solver.backend.work_per_evaluation(model));
+        solution
+    }
+
+    /// The least violation found from `start` and, where violations may have local minima, from seeded points, by the cheapest
+    /// backend; where it proves nothing, by the others from there.
+    fn least_violation(&self, rows: &[usize], start: Vec<f64>) -> Option<Least> {
+        let mut best = None::<Relaxed>;
+        let mut seeds = Seeds::new(2);
+        let more = if self.is_global() { 0 } else { STARTS };
+        let (&cheapest, others) = self.solvers.split_first()?;
+        let first = start.clone();
+        let starts = std::iter::once(start).chain((0..more).map(|_| seeds.point(self.model.meta())));
+        for start in starts {
+            if self.session.clock.is_over() || (best.is_some() && self.is_over()) {
+                break;
+            }
+            let Some(relaxed) = self.relax_by(cheapest, self.model, rows, &start) else { continue };
+            if self.is_feasible(&relaxed.x) {
+                return Some(Least::Feasible(relaxed.x));
+            }
+            if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
+                best = Some(relaxed);
+            }
+        }
+        for &solver in others {
+            if self.session.clock.is_over() || best.as_ref().is_some_and(|best| best.certificate.certified) {
+                break;
+            }
+            self.refill();
+            let near = best.as_ref().map_or_else(|| first.clone(), |best| best.x.clone());
+            let Some(relaxed) = self.relax_by(solver, self.model, rows, &near) else { continue };
+            if self.is_feasible(&relaxed.x) {
+                return Some(Least::Feasible(relaxed.x));
+            }
+            if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
+                best = Some(relaxed);
+            }
+        }
+        best.map(Least::Violation)
     }
 
     /// The elastic minimum over these rows by the first backend that proves it, else the lowest.
@@ -110,16 +200,12 @@ impl<'a> Work<'a> {
 
     /// The same with the bounds of `model`.
     fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start)).ok()?;
-        let judge = Certifier::new(&elastic, self.referee.task.class, self.referee.tolerances);
         let mut best: Option<Relaxed> = None;
-        for &contestant in self.contestants {
-            let budget = self.referee.clock.share(0.3, SOLVE_SECONDS);
-            let solution = self.referee.solve_aside(contestant, &elastic, &elastic.meta().start, budget);
-            let Ok(certificate) = judge.certify(&solution.x, solution.multipliers.as_deref()) else { continue };
-            let violation = elastic.violation(&solution.x);
-            let carriers = carriers(&elastic, &certificate);
-            let relaxed = Relaxed { x: elastic.original(&solution.x).to_vec(), violation, certificate, carriers };
+        for &solver in &self.solvers {
+            if best.is_some() && self.is_over() {
+                break;
+            }
+            let Some(relaxed) = self.relax_by(solver, model, rows, start) else { continue };
             let proved = relaxed.certificate.certified || self.is_feasible(&relaxed.x);
             if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
                 best = Some(relaxed);
@@ -131,40 +217,83 @@ impl<'a> Work<'a> {
         best
     }
 
-    /// The violated rows, and a small set that conflicts.
-    fn conflict(&self, best: &Relaxed, x: &[f64]) -> Conflict {
-        let relaxations = self.violations(x);
+    /// The elastic minimum over these rows by one backend.
+    fn relax_by(&self, solver: Solver<'_>, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
+        let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start), start).ok()?;
+        let judge = Certifier::new(&elastic, self.session.task.class, self.session.tolerances);
+        let solution = self.solve(solver, &elastic, &elastic.meta().start);
+        let certificate = judge.certify(&solution.x, solution.multipliers.as_deref()).ok()?;
+        let violation = elastic.violation(&solution.x);
+        let mut multipliers = vec![0.0; self.model.meta().rows()];
+        for (k, &y) in certificate.row_multipliers.iter().enumerate() {
+            multipliers[elastic.row(k)] = y;
+        }
+        let carriers = carriers(&elastic, &certificate);
+        Some(Relaxed { x: elastic.original(&solution.x).to_vec(), violation, certificate, multipliers, carriers })
+    }
+
+    /// The elastic minimum anew, its rows in units of their terms where it lies: those of the start may be far off.
+    fn in_own_scales(&self, rows: &[usize], found: Relaxed) -> Relaxed {
+        self.refill();
+        let again = self.relax(rows, &found.x).filter(|again| again.certificate.certified || !found.certificate.certified);
+        again.unwrap_or(found)
+    }
+
+    /// Whether the multipliers at an elastic minimum prove that no point meets the rows.
+    fn is_contradiction(&self, relaxed: &Relaxed) -> bool {
+        let accepted = self.session.tolerances.constraint;
+        let found = contradiction(self.model, &relaxed.x, &relaxed.multipliers, self.is_global(), accepted);
+        found.is_ok_and(|found| found.is_some())
+    }
+
+    /// The violated rows, a small set that conflicts, and single moves that are enough; or the feasible point the search for
+    /// these came upon.
+    fn infeasible(&self, best: &Relaxed, proved: bool) -> Elasticity {
+        let x = self.outward(&best.x);
+        self.refill();
         let Core { members, complete } = filter::filter(self, best);
+        self.refill();
+        let (alternatives, feasible) = moves::enough(self, best, &members, proved);
+        if let Some(x) = feasible {
+            return Elasticity::Feasible(x);
+        }
         // Rows beyond the user's own belong to the substitution.
-        let own = self.referee.task.model.meta().rows();
+        let own = self.session.task.model.meta().rows();
         let rows = members.iter().filter_map(|member| member.row()).filter(|&row| row < own).collect();
         let bounds = members.iter().filter_map(|member| member.bound()).collect();
-        let minimal = complete && self.referee.task.class.is_global();
-        Conflict { violated_rows: relaxations.clone(), rows, bounds, relaxations, minimal }
+        let minimal = complete && self.is_global();
+        let conflict = Conflict { violated_rows: self.violations(&x), rows, bounds, alternatives, minimal };
+        Elasticity::Infeasible { x, conflict, proved }
     }
 
     /// Violation in all below which a set of rows counts as compatible.
     fn least(&self) -> f64 {
-        self.referee.tolerances.constraint
+        self.session.tolerances.constraint
     }
 
     /// Bounds that push against the violation at an elastic minimum: (variable, upper side).
     fn bounds(&self, relaxed: &Relaxed) -> Vec<(usize, bool)> {
         let certificate = &relaxed.certificate;
         let weight = |j: usize| certificate.bound_multipliers[j] * certificate.variable_scales[j];
-        (0..relaxed.x.len()).filter(|&j| weight(j).abs() > 1e-6 * certificate.sigma).map(|j| (j, weight(j) > 0.0)).collect()
+        (0..relaxed.x.len()).filter(|&j| weight(j).abs() > NOISE * certificate.sigma).map(|j| (j, weight(j) > 0.0)).collect()
+    }
+
+    /// Members of the conflict at an elastic minimum: rows and bounds with multipliers.
+    fn members(&self, relaxed: &Relaxed) -> Vec<Member> {
+        let rows = relaxed.carriers.iter().map(|&(row, _)| Member::Row(row));
+        rows.chain(self.bounds(relaxed).into_iter().map(|(j, upper)| Member::Bound(j, upper))).collect()
     }
 
     /// Rows of the user's model not met at x, with the amount their limit would have to move.
     fn violations(&self, x: &[f64]) -> Vec<(usize, f64)> {
-        let Ok(judged) = self.referee.judge.certify(x, None) else { return Vec::new() };
-        let meta = self.referee.task.model.meta();
+        let Ok(judged) = self.session.judge.certify(x, None) else { return Vec::new() };
+        let meta = self.session.task.model.meta();
         let amount = |i: usize| {
             let value = judged.row_values[i];
             if value > meta.row_upper[i] { value - meta.row_upper[i] } else { (value - meta.row_lower[i]).min(0.0) }
         };
         let mut jacobian = vec![0.0; meta.jacobian.len()];
-        if self.referee.task.model.jacobian(x, &mut jacobian).is_err() {
+        if self.session.task.model.jacobian(x, &mut jacobian).is_err() {
             return Vec::new();
         }
         let slope = |at: usize| (jacobian[at] * judged.variable_scales[meta.jacobian.columns[at] as usize]).abs();
@@ -183,7 +312,7 @@ fn sized(model: &dyn Model, x: &[f64]) -> Vec<f64> {
 }
 
 /// Multipliers of the elastic problem lie between −1/S and 1/S; noise is far below.
-fn carriers(elastic: &Elastic<'_>, certificate: &Certificate) -> Vec<usize> {
+fn carriers(elastic: &Elastic<'_>, certificate: &Certificate) -> Vec<(usize, bool)> {
     let y = certificate.row_multipliers.iter().enumerate();
-    y.filter(|&(k, y)| (y * elastic.scale(k)).abs() > 1e-6).map(|(k, _)| elastic.row(k)).collect()
+    y.filter(|&(k, y)| (y * elastic.scale(k)).abs() > NOISE).map(|(k, &y)| (elastic.row(k), y > 0.0)).collect()
 }

@@ -4,177 +4,259 @@
 //! says in the end what the problem is worth: a minimum, infeasible, unbounded, not attained, or undecided. A backend's own
 //! status never decides anything.
 
-mod attempt;
 mod clock;
 mod diverging;
-mod first;
+mod feasibility_polish;
+mod first_round;
 mod infeasible;
+mod ledger;
+mod merit;
 mod multistart;
-mod restart;
+mod pool;
+mod restarts;
+#[cfg(test)]
+mod scripted;
 mod seeds;
-mod settle;
+mod session;
 mod start;
 #[cfg(test)]
 mod tests;
 mod types;
 mod verdict;
 mod words;
+mod work;
 
 use crate::backends::{Backend, Termination};
-use attempt::{Contestant, Referee};
+use crate::certificate::impossible_row;
 use diverging::{Fall, Ray};
 use infeasible::Elasticity;
+use ledger::Ledger;
+use session::{Session, Solver};
 pub use start::MovedStart;
-pub use types::{Agreement, Answer, Conflict, Minimum, ObserverFactory, Outcome, Status, Task};
+pub use types::{Agreement, Answer, Conflict, LimitMove, Minimum, ObserverFactory, Outcome, Status, Task};
 
 /// Runs every backend with its algorithm and judges what they bring.
 pub fn run(task: &Task<'_>, backends: &[(&dyn Backend, &str)], observers: &mut ObserverFactory<'_>) -> Outcome {
     let moved_start = start::in_domain(task);
     let begin = moved_start.as_ref().map_or(task.start, |moved| moved.x.as_slice());
     let task = &Task { start: begin, ..*task };
-    let referee = Referee::new(task);
-    let contestants: Vec<_> = backends.iter().map(|&(backend, algorithm)| Contestant { backend, algorithm }).collect();
-    let mut answers = first::answers(&referee, &contestants, observers);
-    let (mut minima, mut starts_run) = (Vec::new(), 1);
-    if task.starts > 1 && !referee.clock.is_over() {
-        (minima, starts_run) = many_starts(&referee, &contestants, &mut answers);
-    }
-    second_tries(&referee, &contestants, &mut answers);
-    let mut outcome = conclude(&referee, &contestants, answers);
-    if starts_run < task.starts {
-        words::starts_left_out(&mut outcome, starts_run, task.starts);
-    }
-    if referee.clock.is_interrupted() && outcome.status == Status::Certified {
+    let session = Session::new(task);
+    let solvers: Vec<_> = backends.iter().map(|&(backend, algorithm)| Solver { backend, algorithm }).collect();
+    let mut ledger = Ledger::new(&session, &solvers, observers);
+    let mut outcome = match contradictory_rows(&mut ledger) {
+        Some(outcome) => outcome,
+        None => solved(&mut ledger),
+    };
+    if session.clock.is_interrupted() && outcome.status == Status::Certified {
         outcome.status = Status::Interrupted;
         words::interrupted(&mut outcome);
     }
-    (outcome.minima, outcome.moved_start) = (minima, moved_start.clone());
+    outcome.moved_start = moved_start.clone();
     outcome
+}
+
+fn solved(ledger: &mut Ledger<'_, '_>) -> Outcome {
+    let task = ledger.session.task;
+    let mut answers = first_round::answers(ledger);
+    let (mut minima, mut starts_run) = (Vec::new(), 1);
+    if task.starts > 1 && !ledger.session.clock.is_over() {
+        (minima, starts_run) = many_starts(ledger, &mut answers);
+    }
+    further_runs(ledger, &mut answers);
+    let mut outcome = conclude(ledger, answers);
+    if starts_run < task.starts {
+        words::starts_left_out(&mut outcome, starts_run, task.starts);
+    }
+    outcome.minima = minima;
+    outcome
+}
+
+/// Linear rows that contradict one another within the bounds: no solver is needed to tell, and none is asked.
+fn contradictory_rows(ledger: &mut Ledger<'_, '_>) -> Option<Outcome> {
+    let session = ledger.session;
+    let tolerance = session.tolerances.constraint;
+    impossible_row(session.task.model, tolerance)?;
+    let why = "not run: the linear rows contradict one another within the bounds";
+    let answers = (0..ledger.solvers.len()).map(|k| ledger.not_run(k, why.into())).collect();
+    let (x, conflict) = match infeasible::explain(ledger, session.task.start) {
+        Some(Elasticity::Infeasible { x, conflict, .. }) => (x, conflict),
+        Some(Elasticity::Unproved(x) | Elasticity::Feasible(x)) => (x, Conflict::default()),
+        None => (session.task.start.to_vec(), Conflict::default()),
+    };
+    Some(verdict::infeasible(session, answers, x, (conflict, true)))
 }
 
 /// The multi-start; its best point replaces the answer of the backend that found it, where it is better. The distinct minima, and
 /// how many starts were run in all.
-fn many_starts(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) -> (Vec<Minimum>, usize) {
-    let found = multistart::run(referee, contestants, referee.task.starts - 1);
+fn many_starts(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) -> (Vec<Minimum>, usize) {
+    let session = ledger.session;
+    let found = multistart::run(session, ledger.solvers, &ledger.order(), session.task.starts - 1);
     let starts_run = found.len() + 1;
-    let minima = multistart::minima(answers.iter().chain(found.iter().map(|(_, answer)| answer)));
-    for (k, mut answer) in found {
-        if answers.iter().all(|own| referee.is_better(&answer, own)) {
-            answer.remarks.push("found by the multi-start".into());
-            answers[k] = answer;
+    let minima = multistart::minima(answers.iter().chain(found.iter().map(|found| &found.answer)));
+    for found in found {
+        if answers.iter().all(|own| session.is_better(&found.answer, own)) {
+            let k = found.solver;
+            answers[k] = observed(ledger, found);
+            answers[k].remarks.push("found by the multi-start".into());
         }
     }
     (minima, starts_run)
 }
 
-fn second_tries(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &mut [Answer]) {
-    for (answer, &contestant) in answers.iter_mut().zip(contestants) {
-        restart::improve(referee, contestant, answer);
+/// The run of a start that won once more, for the log: it is the same run.
+fn observed(ledger: &mut Ledger<'_, '_>, found: multistart::Found) -> Answer {
+    let again = ledger.run(found.solver, &found.start, f64::INFINITY);
+    if ledger.session.is_better(&found.answer, &again) { found.answer } else { again }
+}
+
+fn further_runs(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
+    let session = ledger.session;
+    let is_proved = |answers: &[Answer]| session.task.class.is_global() && answers.iter().any(|answer| answer.is_certified());
+    let improve = |ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]| {
+        for k in ledger.order() {
+            if !is_proved(answers) {
+                restarts::improve(ledger, k, &mut answers[k]);
+            }
+        }
+    };
+    improve(ledger, answers);
+    if answers.iter().any(|answer| answer.gave_way && !answer.is_certified()) {
+        first_round::go_on(ledger, answers);
+        improve(ledger, answers);
     }
-    let Some(best) = verdict::best(referee, answers).map(|best| answers[best].clone()) else { return };
-    if !best.is_certified() {
-        return;
-    }
-    for (k, &contestant) in contestants.iter().enumerate() {
-        restart::cross_start(referee, contestant, &mut answers[k], &best);
-    }
-    if let Some(k) = verdict::better_elsewhere(referee, answers, &best) {
-        let start = answers[k].solution.x.clone();
-        for (answer, &contestant) in answers.iter_mut().zip(contestants) {
-            restart::retry(
-                referee,
-                contestant,
-                answer,
-                &start,
-                "started again from a better feasible point another backend held",
-            );
+    restarts::probe(ledger, answers);
+    let Some(best) = verdict::best(session, answers).map(|best| answers[best].clone()) else { return };
+    for k in ledger.order() {
+        if best.is_certified() && !is_proved(answers) {
+            restarts::cross_start(ledger, k, &mut answers[k], &best);
         }
     }
 }
 
-fn conclude(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
-    let passes = |answer: &Answer| answer.is_certified();
-    if let Some(best) = verdict::best(referee, &answers).map(|best| &answers[best]).filter(|best| passes(best)) {
-        if let Some((x, conflict)) = contradicted(referee, contestants, best) {
-            return verdict::infeasible(referee, answers, x, conflict);
-        }
-        return match diverging::overruled(referee, &answers, best) {
-            Some(ray) => verdict::diverging(referee, answers, ray),
-            None => verdict::certified(referee, answers),
-        };
+fn conclude(ledger: &mut Ledger<'_, '_>, answers: Vec<Answer>) -> Outcome {
+    let session = ledger.session;
+    let mut answers = match from_certified(ledger, answers) {
+        Ok(outcome) => return outcome,
+        Err(answers) => answers,
+    };
+    if !session.clock.is_over() {
+        answers.iter_mut().for_each(|answer| feasibility_polish::polish(session, answer));
     }
-    answers.iter_mut().for_each(|answer| settle::settle(referee, answer));
-    if referee.clock.is_over() {
-        return verdict::undecided(referee, answers);
+    // A point that was moved is judged again, and may pass now.
+    answers = match from_certified(ledger, answers) {
+        Ok(outcome) => return outcome,
+        Err(answers) => answers,
+    };
+    if session.clock.is_over() {
+        return verdict::undecided(session, answers);
     }
-    if answers.iter().any(|answer| referee.is_feasible(answer)) {
-        return from_feasible(referee, contestants, answers);
+    if answers.iter().any(|answer| answer.feasible) {
+        return from_feasible(ledger, answers);
     }
     if answers.iter().all(|answer| answer.solution.termination == Termination::Refused) {
-        return verdict::undecided(referee, answers);
+        return verdict::undecided(session, answers);
     }
-    let near = verdict::best(referee, &answers).filter(|&best| answers[best].certificate.is_some());
-    let near = near.map(|best| answers[best].solution.x.clone()).filter(|x| !diverging::is_far_out(referee, x));
-    let near = near.unwrap_or_else(|| referee.task.start.to_vec());
-    match infeasible::examine(referee, contestants, &near) {
+    from_infeasible(ledger, answers)
+}
+
+/// The outcome where an answer passed and nothing speaks against it; else the answers, as far as they still stand.
+fn from_certified(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Result<Outcome, Vec<Answer>> {
+    let session = ledger.session;
+    let certified = |answers: &[Answer]| verdict::best(session, answers).filter(|&best| answers[best].is_certified());
+    let Some(best) = certified(&answers) else { return Err(answers) };
+    if let Some((x, conflict)) = contradicted(ledger, &answers[best]) {
+        return Ok(verdict::infeasible(session, answers, x, (conflict, true)));
+    }
+    if let Some(ray) = diverging::overruled(session, &answers, &answers[best]) {
+        return Ok(verdict::diverging(session, answers, ray));
+    }
+    restarts::to_better_points(ledger, &mut answers);
+    if certified(&answers).is_none() { Err(answers) } else { Ok(verdict::certified(session, answers)) }
+}
+
+/// No backend met the rows: can they be met at all?
+fn from_infeasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outcome {
+    let session = ledger.session;
+    let near = verdict::best(session, &answers).filter(|&best| answers[best].certificate.is_some());
+    let near = near.map(|best| answers[best].solution.x.clone()).filter(|x| !diverging::is_far_out(session, x));
+    let near = near.unwrap_or_else(|| session.task.start.to_vec());
+    match infeasible::examine(ledger, &near) {
         Some(Elasticity::Feasible(start)) => {
-            for (answer, &contestant) in answers.iter_mut().zip(contestants) {
-                restart::retry(referee, contestant, answer, &start, "started again from the feasible point of the elastic phase");
-                restart::improve(referee, contestant, answer);
+            for k in ledger.order() {
+                let remark = "started again from the feasible point of the elastic phase";
+                restarts::retry(ledger, k, &mut answers[k], &start, remark);
+                restarts::improve(ledger, k, &mut answers[k]);
             }
-            if answers.iter().any(passes) {
-                verdict::certified(referee, answers)
-            } else {
-                from_feasible(referee, contestants, answers)
+            match from_certified(ledger, answers) {
+                Ok(outcome) => outcome,
+                Err(answers) => from_feasible(ledger, answers),
             }
         }
-        Some(Elasticity::Infeasible { x, conflict }) => verdict::infeasible(referee, answers, x, conflict),
-        Some(Elasticity::Unproved(x)) => verdict::no_feasible_point(referee, answers, x),
-        None => verdict::undecided(referee, answers),
+        Some(Elasticity::Infeasible { x, conflict, proved }) => verdict::infeasible(session, answers, x, (conflict, proved)),
+        Some(Elasticity::Unproved(x)) => verdict::no_feasible_point(session, answers, x),
+        None => verdict::undecided(session, answers),
     }
 }
 
-/// Dependent rows that a certified point far out seems to meet only because rounding hides the contradiction: where one start is
-/// enough to tell, the elastic phase does, from the start.
-fn contradicted(referee: &Referee<'_>, contestants: &[Contestant<'_>], best: &Answer) -> Option<(Vec<f64>, Conflict)> {
-    let is_dependent = best.certificate.as_ref().is_some_and(|certificate| certificate.multipliers_not_unique);
-    if !(is_dependent && referee.task.class.is_global() && diverging::is_far_out(referee, &best.solution.x)) {
+/// Where the variables of feasible points are so far out that rounding may hide a contradiction of the rows, or where dependent
+/// rows are met, but not to the last digit: the elastic phase tells from the start, and its proof stands against the point.
+fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>, Conflict)> {
+    let session = ledger.session;
+    let certificate = best.certificate.as_ref()?;
+    let is_suspect = diverging::is_far_out(session, &best.solution.x) || certificate.primal_infeasibility > LAST_DIGITS;
+    if !(certificate.multipliers_not_unique && is_suspect) {
         return None;
     }
-    match infeasible::examine(referee, contestants, referee.task.start)? {
-        Elasticity::Infeasible { x, conflict } => Some((x, conflict)),
+    proved_infeasible(ledger)
+}
+
+/// A violation above this, relative, is more than solvers leave where rows can be met.
+const LAST_DIGITS: f64 = 1e-10;
+
+/// The elastic phase from the start, as far as it ends in a proof.
+fn proved_infeasible(ledger: &mut Ledger<'_, '_>) -> Option<(Vec<f64>, Conflict)> {
+    match infeasible::examine(ledger, ledger.session.task.start)? {
+        Elasticity::Infeasible { x, conflict, proved: true } => Some((x, conflict)),
         _ => None,
     }
 }
 
-fn from_feasible(referee: &Referee<'_>, contestants: &[Contestant<'_>], mut answers: Vec<Answer>) -> Outcome {
-    let ray = diverging::examine(referee, contestants, &answers);
+fn from_feasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outcome {
+    let session = ledger.session;
     // So far out rows that contradict one another seem to be met.
-    if let Some(ray) = &ray
-        && diverging::is_far_out(referee, &ray.from)
-        && let Some(Elasticity::Infeasible { x, conflict }) = infeasible::examine(referee, contestants, referee.task.start)
+    let feasible = || answers.iter().filter(|answer| answer.feasible);
+    if feasible().all(|answer| diverging::is_far_out(session, &answer.solution.x))
+        && let Some((x, conflict)) = proved_infeasible(ledger)
     {
-        return verdict::infeasible(referee, answers, x, conflict);
+        return verdict::infeasible(session, answers, x, (conflict, true));
     }
-    if let Some(value) = settling(referee, &answers, ray.as_ref())
-        && let Some((k, mut answer)) = multistart::attained(referee, contestants, value)
+    let ray = diverging::examine(session, ledger.solvers, &answers);
+    if let Some(ray) = &ray
+        && diverging::is_far_out(session, &ray.from)
+        && let Some((x, conflict)) = proved_infeasible(ledger)
     {
-        answer.remarks.push("found from another start, as from the one given the variables run off".into());
-        answers[k] = answer;
-        return verdict::certified(referee, answers);
+        return verdict::infeasible(session, answers, x, (conflict, true));
+    }
+    if let Some(value) = settling(session, &answers, ray.as_ref())
+        && let Some(found) = multistart::attained(ledger, value)
+    {
+        let k = found.solver;
+        answers[k] = observed(ledger, found);
+        answers[k].remarks.push("found from another start, as from the one given the variables run off".into());
+        return verdict::certified(session, answers);
     }
     match ray {
-        Some(ray) => verdict::diverging(referee, answers, ray),
-        None => verdict::undecided(referee, answers),
+        Some(ray) => verdict::diverging(session, answers, ray),
+        None => verdict::undecided(session, answers),
     }
 }
 
 /// The value the objective settles at as variables run off, where that is what was found; convex problems have no other minima.
-fn settling(referee: &Referee<'_>, answers: &[Answer], ray: Option<&Ray>) -> Option<f64> {
-    if referee.task.class.is_global() || ray.is_some_and(|ray| ray.fall == Fall::Endless) {
+fn settling(session: &Session<'_>, answers: &[Answer], ray: Option<&Ray>) -> Option<f64> {
+    if session.task.class.is_global() || ray.is_some_and(|ray| ray.fall == Fall::Endless) {
         return None;
     }
     let runs_off = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|own| ray.is_some() || !own.runaway.is_empty());
-    let feasible = answers.iter().filter(|answer| referee.is_feasible(answer)).filter(runs_off);
+    let feasible = answers.iter().filter(|answer| session.is_feasible(answer)).filter(runs_off);
     feasible.filter_map(|answer| answer.objective).reduce(f64::min)
 }

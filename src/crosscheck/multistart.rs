@@ -1,55 +1,54 @@
 //! Seeded multi-start on all cores: distinct minima with values and counts.
 
-use std::time::Instant;
-
 use rayon::prelude::*;
 
-use super::attempt::{Contestant, Referee};
+use super::ledger::Ledger;
 use super::seeds::Seeds;
-use super::{Answer, Minimum};
-use crate::model::Budget;
+use super::session::{Session, Solver};
+use super::{Answer, Minimum, work};
 
 /// Relative distance within which two minima of equal value are one.
 const SAME: f64 = 1e-4;
-/// Starts tried, and seconds in all, before a minimum is said not to be attained.
+/// Starts tried before a minimum is said not to be attained.
 const FEW: u64 = 4;
-const SOON: f64 = 2.0;
+
+/// A winning start: the backend's place, where it began, what came of it.
+pub(super) struct Found {
+    pub(super) solver: usize,
+    pub(super) start: Vec<f64>,
+    pub(super) answer: Answer,
+}
 
 /// Runs `count` seeded starts. The order of the results is the order of the seeds, whatever thread finished first.
-pub(super) fn run(referee: &Referee<'_>, contestants: &[Contestant<'_>], count: usize) -> Vec<(usize, Answer)> {
-    let one = |index: usize| from_seed(referee, contestants, index as u64 + 3, &|| referee.clock.share(0.5, f64::INFINITY));
+pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], count: usize) -> Vec<Found> {
+    let one = |index: usize| from_seed(session, solvers, order, index as u64 + 3, f64::INFINITY);
     (0..count).into_par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
 /// A certified answer not above `value` from one of a few seeded starts, where one is found soon: what runs off from one start may
 /// be attained from another.
-pub(super) fn attained(referee: &Referee<'_>, contestants: &[Contestant<'_>], value: f64) -> Option<(usize, Answer)> {
-    let whole = referee.clock.share(0.1, SOON);
-    let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now()).as_secs_f64();
-    let budget = || referee.clock.share(1.0, whole.deadline.map_or(SOON, left));
+pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
     let is_attained = |answer: &Answer| {
         answer.certificate.as_ref().is_some_and(|certificate| certificate.certified && certificate.objective <= value)
     };
-    (0..FEW).find_map(|index| from_seed(referee, contestants, index + 3, &budget).filter(|(_, answer)| is_attained(answer)))
+    let allowed = work::further_run(0.0) / FEW as f64;
+    let from = |index: u64| from_seed(ledger.session, ledger.solvers, &ledger.order(), index + 3, allowed);
+    (0..FEW).find_map(|index| from(index).filter(|found| is_attained(&found.answer)))
 }
 
-/// The backends in turn from one seeded start, until an answer is certified; the best with its backend's place.
-fn from_seed<'b>(
-    referee: &Referee<'_>,
-    contestants: &[Contestant<'_>],
-    seed: u64,
-    budget: &dyn Fn() -> Budget<'b>,
-) -> Option<(usize, Answer)> {
-    let start = Seeds::new(seed).point(referee.task.model.meta());
-    let mut best: Option<(usize, Answer)> = None;
-    for (k, &contestant) in contestants.iter().enumerate() {
-        if referee.clock.is_over() {
+/// The backends in turn from one seeded start, until an answer is certified; the best of them.
+fn from_seed(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], seed: u64, allowed: f64) -> Option<Found> {
+    let start = Seeds::new(seed).point(session.task.model.meta());
+    let mut best: Option<Found> = None;
+    for &k in order {
+        if session.clock.is_over() {
             break;
         }
-        let answer = referee.attempt(contestant, &start, None, budget(), &mut |_| {});
+        let budget = session.budget(solvers[k], session.working_model(), allowed);
+        let answer = session.attempt(solvers[k], &start, None, budget, &mut |_| {});
         let certified = answer.is_certified();
-        if best.as_ref().is_none_or(|(_, best)| referee.is_better(&answer, best)) {
-            best = Some((k, answer));
+        if best.as_ref().is_none_or(|best| session.is_better(&answer, &best.answer)) {
+            best = Some(Found { solver: k, start: start.clone(), answer });
         }
         if certified {
             break;

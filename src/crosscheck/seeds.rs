@@ -33,6 +33,21 @@ impl Seeds {
     }
 }
 
+/// The middle of the bounds; where one is open, off the start by an amount that differs from variable to variable.
+pub(super) fn middle(meta: &Meta) -> Vec<f64> {
+    let one = |j: usize| {
+        let (lower, upper, start) = (meta.lower[j], meta.upper[j], meta.start[j]);
+        let distance = (1.0 + start.abs()) * (1.0 + 0.1 * (j % 7) as f64);
+        match (lower.is_finite(), upper.is_finite()) {
+            (true, true) => 0.5 * (lower + upper),
+            (true, false) => start.max(lower + distance),
+            (false, true) => start.min(upper - distance),
+            (false, false) => start + distance,
+        }
+    };
+    (0..meta.variables()).map(one).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

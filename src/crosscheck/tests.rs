@@ -64,7 +64,11 @@ fn an_infeasible_problem_shows_what_conflicts() {
     assert_eq!((outcome.status, outcome.exit_code()), (Status::Infeasible, 3));
     let conflict = outcome.conflict.unwrap();
     assert_eq!(conflict.rows, [0, 1]);
-    assert!(conflict.minimal && !conflict.relaxations.is_empty());
+    assert!(conflict.minimal);
+    // The disc to x² + y² ≤ 2, or the half plane to x + y ≥ √2.
+    let to: Vec<f64> = conflict.alternatives.iter().map(|found| found.to).collect();
+    assert!(conflict.alternatives.iter().all(|found| found.least), "{conflict:?}");
+    assert!((to[0] - 2f64.sqrt()).abs() < 1e-5 && (to[1] - 2.0).abs() < 1e-5, "{to:?}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::start::MovedStart;
 use crate::backends::{Iteration, Solution};
 use crate::certificate::{Certificate, Scope};
-use crate::model::{Class, Model, Substitution};
+use crate::model::{Class, Limit, Model, Substitution};
 use crate::problem::Settings;
 
 /// What is to be solved.
@@ -69,14 +69,18 @@ impl Status {
 pub struct Answer {
     /// Name of the backend.
     pub backend: &'static str,
-    /// Which of the backend's runs it is of, counted from 1 as their observers were made.
-    pub attempt: usize,
     /// What it brought back; x in the user's variables.
     pub solution: Solution,
     /// f(x), where it has a value.
     pub objective: Option<f64>,
     /// What the point is; `None` where it could not be evaluated.
     pub certificate: Option<Certificate>,
+    /// Whether the point meets rows and bounds; also known where the point has values but no derivatives.
+    pub feasible: bool,
+    /// Which of the backend's attempts gave this answer, counted from 1; 0 where nothing was run.
+    pub attempt: usize,
+    /// Its share of the work ended the run, and no limit the user set.
+    pub gave_way: bool,
     /// What happened besides: restarts, cross-starts, why it is not certified.
     pub remarks: Vec<String>,
 }
@@ -108,10 +112,30 @@ pub struct Conflict {
     pub rows: Vec<usize>,
     /// with these bounds (variable, upper side).
     pub bounds: Vec<(usize, bool)>,
-    /// Limits whose joint relaxation makes it feasible with the least sum (row, signed amount in the row's units).
-    pub relaxations: Vec<(usize, f64)>,
+    /// Moves each of which, on its own, makes the problem feasible; the least relative one first.
+    pub alternatives: Vec<LimitMove>,
     /// No part of the set conflicts by itself (proved, for linear, geometric and convex problems).
     pub minimal: bool,
+}
+
+/// A limit moved on its own, with a feasible point to show that it is enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LimitMove {
+    /// The limit.
+    pub limit: Limit,
+    /// Where it is.
+    pub from: f64,
+    /// Where it is enough to have it.
+    pub to: f64,
+    /// Less would not be enough, but for rounding to six digits (proved: linear, geometric and convex problems).
+    pub least: bool,
+}
+
+impl LimitMove {
+    /// |to − from| over the limit's size; infinite where the limit is 0 and has none.
+    pub fn relative(&self) -> f64 {
+        (self.to - self.from).abs() / self.from.abs()
+    }
 }
 
 /// A distinct minimum of the multi-start.

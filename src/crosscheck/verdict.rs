@@ -1,110 +1,114 @@
 //! From judged answers to the outcome.
 
-use super::attempt::Referee;
 use super::diverging::{Fall, Ray};
+use super::merit;
+use super::session::Session;
 use super::words;
 use super::{Agreement, Answer, Conflict, Outcome, Status};
 use crate::backends::Termination;
 use crate::certificate::{Certifier, Scope, lower_bound};
 
-/// Objectives this close, in units of σ, are the same.
-const AGREEMENT: f64 = 1e-6;
-
 /// Certified points of equal value this far apart, relative, are two minimisers.
 const APART: f64 = 1e-3;
 
 /// The best answer's place.
-pub(super) fn best(referee: &Referee<'_>, answers: &[Answer]) -> Option<usize> {
-    (0..answers.len()).reduce(|best, k| if referee.is_better(&answers[k], &answers[best]) { k } else { best })
+pub(super) fn best(session: &Session<'_>, answers: &[Answer]) -> Option<usize> {
+    (0..answers.len()).reduce(|best, k| if session.is_better(&answers[k], &answers[best]) { k } else { best })
 }
 
-/// An answer that is feasible and better than the best by more than what counts as agreement.
-pub(super) fn better_elsewhere(referee: &Referee<'_>, answers: &[Answer], best: &Answer) -> Option<usize> {
-    let (objective, sigma) = best.certificate.as_ref().map(|certificate| (certificate.objective, certificate.sigma))?;
-    let is_better = |answer: &Answer| {
-        referee.is_feasible(answer)
-            && answer.objective.is_some_and(|value| value < objective - AGREEMENT * sigma.max(f64::EPSILON * objective.abs()))
-    };
-    answers.iter().position(is_better)
+/// An answer that is feasible and better than the best by more than what counts as agreement; none where a rigorous bound says
+/// that there is no such point.
+pub(super) fn better_elsewhere(session: &Session<'_>, answers: &[Answer], best: &Answer) -> Option<usize> {
+    let lowest = |a: usize, b: usize| if answers[b].objective < answers[a].objective { b } else { a };
+    let found = (0..answers.len()).filter(|&k| merit::is_lower(session, &answers[k], best)).reduce(lowest)?;
+    let certificate = best.certificate.as_ref()?;
+    let level = certificate.objective - merit::level(session, &best.solution.x, certificate);
+    let is_proved = session.task.class.is_global() && bound_at(session, &best.solution.x).is_some_and(|bound| bound >= level);
+    (!is_proved).then_some(found)
 }
 
 /// At least one answer is certified.
-pub(super) fn certified(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome {
-    let mut outcome = standing(referee, answers, Status::Certified);
-    outcome.scope = Scope::of(referee.task.class);
-    outcome.agreement = agreement(&outcome);
+pub(super) fn certified(session: &Session<'_>, answers: Vec<Answer>) -> Outcome {
+    let mut outcome = standing(session, answers, Status::Certified);
+    outcome.scope = Scope::of(session.task.class);
+    outcome.agreement = agreement(session, &outcome);
     outcome.minimiser_is_not_unique = outcome.agreement.is_some_and(|found| found.agree && found.variable_difference > APART);
     if let Some(best) = outcome.best {
-        outcome.better_point_elsewhere = better_elsewhere(referee, &outcome.answers, &outcome.answers[best]).is_some();
+        outcome.better_point_elsewhere = better_elsewhere(session, &outcome.answers, &outcome.answers[best]).is_some();
     }
     if outcome.scope == Scope::Global {
-        outcome.lower_bound = bound(referee, &outcome);
+        outcome.lower_bound = bound(session, &outcome);
     }
     words::certified(&mut outcome);
     outcome
 }
 
 /// A ray shows that the objective has no minimum.
-pub(super) fn diverging(referee: &Referee<'_>, answers: Vec<Answer>, ray: Ray) -> Outcome {
+pub(super) fn diverging(session: &Session<'_>, answers: Vec<Answer>, ray: Ray) -> Outcome {
     let status = if ray.fall == Fall::Endless { Status::Unbounded } else { Status::NotAttained };
-    let mut outcome = standing(referee, answers, status);
-    if !outcome.best.is_some_and(|best| referee.is_feasible(&outcome.answers[best])) {
-        outcome.objective = referee.task.model.objective(&ray.from).ok();
-        outcome.certificate = referee.judge.certify(&ray.from, None).ok();
+    let mut outcome = standing(session, answers, status);
+    if !outcome.best.is_some_and(|best| session.is_feasible(&outcome.answers[best])) {
+        outcome.objective = session.task.model.objective(&ray.from).ok();
+        outcome.certificate = session.judge.certify(&ray.from, None).ok();
         outcome.x = ray.from;
     }
     outcome.runaway = (0..ray.direction.len()).filter(|&j| ray.direction[j] != 0.0).collect();
     outcome.direction = Some(ray.direction);
-    words::diverging(referee, &mut outcome);
+    words::diverging(session, &mut outcome);
     outcome
 }
 
-/// The elastic phase proved that no nearby point is feasible.
-pub(super) fn infeasible(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, conflict: Conflict) -> Outcome {
-    let mut outcome = at(referee, answers, x, Status::Infeasible);
-    outcome.scope = Scope::of(referee.task.class);
-    words::infeasible(referee, &mut outcome, &conflict);
+/// The elastic phase showed that no nearby point is feasible or, proved, that none is.
+pub(super) fn infeasible(
+    session: &Session<'_>,
+    answers: Vec<Answer>,
+    x: Vec<f64>,
+    (conflict, proved): (Conflict, bool),
+) -> Outcome {
+    let mut outcome = at(session, answers, x, Status::Infeasible);
+    outcome.scope = if proved { Scope::Global } else { Scope::Local };
+    words::infeasible(session, &mut outcome, &conflict);
     outcome.conflict = Some(conflict);
     outcome
 }
 
 /// No feasible point was found, and nothing is proved.
-pub(super) fn no_feasible_point(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>) -> Outcome {
-    let mut outcome = at(referee, answers, x, Status::Uncertified);
+pub(super) fn no_feasible_point(session: &Session<'_>, answers: Vec<Answer>, x: Vec<f64>) -> Outcome {
+    let mut outcome = at(session, answers, x, Status::Uncertified);
     words::no_feasible_point(&mut outcome);
     outcome
 }
 
 /// Nothing passed, and no reason was found in the problem: why the backends stopped is what can be said.
-pub(super) fn undecided(referee: &Referee<'_>, answers: Vec<Answer>) -> Outcome {
-    let ended = |termination| answers.iter().any(|answer| answer.solution.termination == termination);
+pub(super) fn undecided(session: &Session<'_>, answers: Vec<Answer>) -> Outcome {
+    // An answer that gave way met no limit the user knows.
+    let ended = |termination| answers.iter().any(|answer| answer.solution.termination == termination && !answer.gave_way);
     let runs_away = |answer: &Answer| answer.certificate.as_ref().is_some_and(|certificate| !certificate.runaway.is_empty());
-    let status = if referee.clock.is_interrupted() || ended(Termination::Interrupted) {
+    let status = if session.clock.is_interrupted() || ended(Termination::Interrupted) {
         Status::Interrupted
     } else if answers.iter().any(runs_away) {
         Status::NotAttained
-    } else if referee.clock.is_over() || (ended(Termination::LimitReached) && !ended(Termination::Converged)) {
+    } else if session.clock.is_over() || (ended(Termination::LimitReached) && !ended(Termination::Converged)) {
         Status::LimitReached
-    } else if answers.iter().all(|answer| answer.certificate.is_none() || answer.solution.invalid.is_some())
-        && !answers.is_empty()
+    } else if answers.iter().all(|answer| answer.objective.is_none() || answer.solution.invalid.is_some()) && !answers.is_empty()
     {
         Status::InvalidValue
     } else {
         Status::Uncertified
     };
-    let mut outcome = standing(referee, answers, status);
+    let mut outcome = standing(session, answers, status);
     outcome.runaway = outcome.certificate.as_ref().map(|certificate| certificate.runaway.clone()).unwrap_or_default();
-    words::undecided(referee, &mut outcome);
+    words::undecided(session, &mut outcome);
     outcome
 }
 
 /// An outcome that shows the best answer.
-fn standing(referee: &Referee<'_>, answers: Vec<Answer>, status: Status) -> Outcome {
-    let best = best(referee, &answers);
-    let shown = best.map(|best| &answers[best]).filter(|answer| answer.certificate.is_some());
+fn standing(session: &Session<'_>, answers: Vec<Answer>, status: Status) -> Outcome {
+    let best = best(session, &answers);
+    let shown = best.map(|best| &answers[best]).filter(|answer| answer.objective.is_some());
     Outcome {
         status,
-        x: shown.map_or_else(|| referee.task.start.to_vec(), |answer| answer.solution.x.clone()),
+        x: shown.map_or_else(|| session.task.start.to_vec(), |answer| answer.solution.x.clone()),
         objective: shown.and_then(|answer| answer.objective),
         certificate: shown.and_then(|answer| answer.certificate.clone()),
         best,
@@ -114,14 +118,14 @@ fn standing(referee: &Referee<'_>, answers: Vec<Answer>, status: Status) -> Outc
 }
 
 /// An outcome that shows a point of its own.
-fn at(referee: &Referee<'_>, answers: Vec<Answer>, mut x: Vec<f64>, status: Status) -> Outcome {
-    referee.task.model.complete(&mut x);
-    let certificate = referee.judge.certify(&x, None).ok();
+fn at(session: &Session<'_>, answers: Vec<Answer>, mut x: Vec<f64>, status: Status) -> Outcome {
+    session.task.model.complete(&mut x);
+    let certificate = session.judge.certify(&x, None).ok();
     let objective = certificate.as_ref().map(|certificate| certificate.objective);
     Outcome { status, x, objective, certificate, answers, ..Outcome::default() }
 }
 
-fn agreement(outcome: &Outcome) -> Option<Agreement> {
+fn agreement(session: &Session<'_>, outcome: &Outcome) -> Option<Agreement> {
     let best = &outcome.answers[outcome.best?];
     let reference = best.certificate.as_ref()?;
     let ran: Vec<_> = outcome.answers.iter().filter(|answer| answer.solution.termination != Termination::Refused).collect();
@@ -130,35 +134,31 @@ fn agreement(outcome: &Outcome) -> Option<Agreement> {
     }
     let (mut objective_difference, mut variable_difference, mut certified) = (0f64, 0f64, true);
     for answer in ran {
-        let Some(certificate) = &answer.certificate else {
-            certified = false;
-            continue;
-        };
-        certified &= certificate.certified;
-        objective_difference = objective_difference.max((certificate.objective - reference.objective).abs());
+        certified &= answer.is_certified();
+        let Some(objective) = answer.objective else { continue };
+        objective_difference = objective_difference.max((objective - reference.objective).abs());
         let pairs = answer.solution.x.iter().zip(&best.solution.x).zip(&reference.variable_scales);
         variable_difference = pairs.fold(variable_difference, |most, ((a, b), d)| most.max((a - b).abs() / d));
     }
-    let rounding = 64.0 * f64::EPSILON * reference.objective.abs();
-    let agree = certified && objective_difference <= (AGREEMENT * reference.sigma).max(rounding);
+    let agree = certified && objective_difference <= merit::level(session, &best.solution.x, reference);
     Some(Agreement { agree, objective_difference, variable_difference })
 }
 
 /// The best rigorous bound any certified answer's multipliers give.
-fn bound(referee: &Referee<'_>, outcome: &Outcome) -> Option<f64> {
+fn bound(session: &Session<'_>, outcome: &Outcome) -> Option<f64> {
     let certified = |answer: &&Answer| answer.is_certified();
-    let bounds = outcome.answers.iter().filter(certified).filter_map(|answer| bound_at(referee, &answer.solution.x));
+    let bounds = outcome.answers.iter().filter(certified).filter_map(|answer| bound_at(session, &answer.solution.x));
     bounds.reduce(f64::max)
 }
 
 /// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.
-fn bound_at(referee: &Referee<'_>, x: &[f64]) -> Option<f64> {
-    let task = referee.task;
+fn bound_at(session: &Session<'_>, x: &[f64]) -> Option<f64> {
+    let task = session.task;
     let Some(other) = task.substitution else {
-        return lower_bound(task.model, x, &referee.judge.row_multipliers(x).ok()?).ok()?;
+        return lower_bound(task.model, x, &session.judge.row_multipliers(x).ok()?).ok()?;
     };
     let z = other.inward(x);
-    let judge = Certifier::new(other.model(), task.class, referee.tolerances);
+    let judge = Certifier::new(other.model(), task.class, session.tolerances);
     let bound = lower_bound(other.model(), &z, &judge.row_multipliers(&z).ok()?).ok()??;
     let outward = other.outward_objective(bound);
     // The way back is a library function: a few last digits are given away.

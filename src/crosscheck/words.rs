@@ -1,7 +1,7 @@
 //! The verdict in plain sentences, with a remedy where there is one.
 
-use super::attempt::Referee;
-use super::{Answer, Conflict, Outcome, Status};
+use super::session::Session;
+use super::{Answer, Conflict, LimitMove, Outcome, Status};
 use crate::backends::Termination;
 use crate::certificate::Scope;
 
@@ -48,8 +48,8 @@ pub(super) fn interrupted(outcome: &mut Outcome) {
     outcome.message = format!("Interrupted; what was found before is certified. {}", outcome.message);
 }
 
-pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
-    let names = variables(referee, &outcome.runaway);
+pub(super) fn diverging(session: &Session<'_>, outcome: &mut Outcome) {
+    let names = variables(session, &outcome.runaway);
     if outcome.status == Status::Unbounded {
         outcome.message =
             format!("The objective is unbounded: it falls without end along a direction that stays feasible, in {names}.");
@@ -60,13 +60,13 @@ pub(super) fn diverging(referee: &Referee<'_>, outcome: &mut Outcome) {
     }
 }
 
-pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict: &Conflict) {
+pub(super) fn infeasible(session: &Session<'_>, outcome: &mut Outcome, conflict: &Conflict) {
     let (infeasible, conflicting) = if outcome.scope == Scope::Global {
         ("infeasible", "conflict")
     } else {
         ("locally infeasible", "are locally conflicting")
     };
-    let model = referee.task.model;
+    let model = session.task.model;
     let rows: Vec<_> = conflict.rows.iter().map(|&i| format!("row {}", model.row_name(i))).collect();
     let side = |upper: bool| if upper { "upper" } else { "lower" };
     let bounds = conflict.bounds.iter().map(|&(j, upper)| format!("the {} bound of {}", side(upper), model.variable_name(j)));
@@ -79,17 +79,26 @@ pub(super) fn infeasible(referee: &Referee<'_>, outcome: &mut Outcome, conflict:
         _ => message.push_str(&format!(" Together {conflicting}: {}.", list(&all))),
     }
     outcome.message = message;
-    let meta = model.meta();
-    let move_limit = |&(i, amount): &(usize, f64)| {
-        let (word, limit) = if amount > 0.0 { ("raise", meta.row_upper[i]) } else { ("lower", meta.row_lower[i]) };
-        format!(
-            "{word} the limit of row {} from {limit} to {}",
-            model.row_name(i),
-            twelve_digits(limit + amount, limit.abs().max(amount.abs()))
-        )
-    };
-    let moves: Vec<_> = conflict.relaxations.iter().map(move_limit).collect();
-    outcome.remedy = (!moves.is_empty()).then(|| format!("the least that would make it feasible: {}", list(&moves)));
+    let moves: Vec<_> = conflict.alternatives.iter().map(|found| change(session, found)).collect();
+    outcome.remedy = (!moves.is_empty()).then(|| {
+        let lead = if moves.len() > 1 { "any one of these is enough" } else { "this is enough" };
+        format!("{lead}: {}", alternatives(&moves))
+    });
+}
+
+/// `a.h.upper 100 -> 178.6 (+78.6 %, the least)`
+fn change(session: &Session<'_>, found: &LimitMove) -> String {
+    let per_cent = 100.0 * found.relative() * (found.to - found.from).signum();
+    let relative = (found.from != 0.0).then(|| format!("{per_cent:+.3} %"));
+    let least = found.least.then(|| "the least".to_string());
+    let remarks: Vec<String> = relative.into_iter().chain(least).collect();
+    let remarks = if remarks.is_empty() { String::new() } else { format!(" ({})", remarks.join(", ")) };
+    format!("{} {} -> {}{remarks}", found.limit.label(session.task.model), plain(found.from), plain(found.to))
+}
+
+/// Without rows of zeros.
+fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 pub(super) fn no_feasible_point(outcome: &mut Outcome) {
@@ -98,7 +107,7 @@ pub(super) fn no_feasible_point(outcome: &mut Outcome) {
     outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
 }
 
-pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
+pub(super) fn undecided(session: &Session<'_>, outcome: &mut Outcome) {
     let reasons: Vec<_> = outcome.answers.iter().map(|answer| format!("{}: {}", answer.backend, why(answer))).collect();
     let (lead, remedy) = match outcome.status {
         Status::Interrupted => ("Interrupted; this is the best point so far.", None),
@@ -113,9 +122,9 @@ pub(super) fn undecided(referee: &Referee<'_>, outcome: &mut Outcome) {
     };
     outcome.message = format!("{lead} {}.", reasons.join("; "));
     outcome.remedy = remedy.map(String::from);
-    let vanishing = referee.task.substitution.map_or_else(Vec::new, |other| other.vanishing(&outcome.x));
+    let vanishing = session.task.substitution.map_or_else(Vec::new, |other| other.vanishing(&outcome.x));
     if outcome.status == Status::Uncertified && !vanishing.is_empty() {
-        let difference = |&(a, b): &(usize, usize)| variables(referee, &[a, b]).replace(", ", " − ");
+        let difference = |&(a, b): &(usize, usize)| variables(session, &[a, b]).replace(", ", " − ");
         let names = list(&vanishing.iter().map(difference).collect::<Vec<_>>());
         outcome
             .message
@@ -138,21 +147,22 @@ fn why(answer: &Answer) -> String {
     all.join(" — ")
 }
 
-/// Without the last digits, which are rounding, of a sum of numbers of this size.
-fn twelve_digits(value: f64, size: f64) -> f64 {
-    let lost = (size / value.abs()).log10().clamp(0.0, 11.0) as usize;
-    let rounded: f64 = format!("{value:.*e}", 11 - lost).parse().unwrap_or(value);
-    if rounded.abs() <= 1e-11 * size { 0.0 } else { rounded }
-}
-
-fn variables(referee: &Referee<'_>, places: &[usize]) -> String {
-    list(&places.iter().map(|&j| referee.task.model.variable_name(j)).collect::<Vec<_>>())
+fn variables(session: &Session<'_>, places: &[usize]) -> String {
+    list(&places.iter().map(|&j| session.task.model.variable_name(j)).collect::<Vec<_>>())
 }
 
 pub(super) fn list(names: &[String]) -> String {
     let mut shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {
         shown.push_str(&format!(" and {} more", names.len() - SHOWN));
+    }
+    shown
+}
+
+fn alternatives(moves: &[String]) -> String {
+    let mut shown = moves.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", or ");
+    if moves.len() > SHOWN {
+        shown.push_str(&format!(", and {} more", moves.len() - SHOWN));
     }
     shown
 }

@@ -9,6 +9,7 @@ pub mod bordered;
 pub mod bunch_kaufman;
 pub mod cholesky;
 pub mod congruence;
+pub mod copositive;
 mod dense;
 pub mod entries;
 mod guarded;

@@ -18,16 +18,17 @@ pub struct Elastic<'a> {
 }
 
 impl<'a> Elastic<'a> {
-    /// The elastic form of the rows `rows` (ascending) of `model`, starting at `reference` with more slack than it needs.
+    /// The elastic form of the rows `rows` (ascending) of `model`, starting at `start` with more slack than it needs, its rows
+    /// in units of their terms at `reference`.
     ///
     /// # Errors
-    /// The model has no value or derivative at `reference`.
-    pub fn new(model: &'a dyn Model, rows: Vec<usize>, reference: &[f64]) -> Result<Self, EvaluationError> {
+    /// The model has no value or derivative at `start` or `reference`.
+    pub fn new(model: &'a dyn Model, rows: Vec<usize>, start: &[f64], reference: &[f64]) -> Result<Self, EvaluationError> {
         let base = model.meta();
         let mut values = vec![0.0; base.rows()];
-        model.constraints(reference, &mut values)?;
-        let scales = row_scales(model, reference)?;
-        let (mut slacks, mut start) = (Vec::new(), reference.to_vec());
+        model.constraints(start, &mut values)?;
+        let scales = row_scales(model, start, reference)?;
+        let (mut slacks, mut start) = (Vec::new(), start.to_vec());
         for (k, &i) in rows.iter().enumerate() {
             if base.row_upper[i].is_finite() {
                 slacks.push((k, -scales[i]));
@@ -75,19 +76,22 @@ impl<'a> Elastic<'a> {
     }
 }
 
-/// max(|limit|, ‖D∇c_i‖∞) at x with d_j = |x_j|, or 1 where that is 0; 1 where all of it vanishes.
-fn row_scales(model: &dyn Model, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+/// max(|limit|, |∂c_i/∂x_j·x_j|) at `reference` where a limit is not 0; else ‖D∇c_i‖∞ at `start` with d_j = |x_j|, or 1 where that
+/// is 0; 1 where all of it vanishes.
+fn row_scales(model: &dyn Model, start: &[f64], reference: &[f64]) -> Result<Vec<f64>, EvaluationError> {
     let meta = model.meta();
-    let mut jacobian = vec![0.0; meta.jacobian.len()];
-    model.jacobian(x, &mut jacobian)?;
-    let size = |j: usize| if x[j] == 0.0 { 1.0 } else { x[j].abs() };
     let limit = |i: usize| {
         [meta.row_lower[i], meta.row_upper[i]].into_iter().filter(|l| l.is_finite()).fold(0.0, |m: f64, l| m.max(l.abs()))
     };
-    let scale = |i: usize| {
-        let slopes = meta.jacobian.range(i).map(|at| (jacobian[at] * size(meta.jacobian.columns[at] as usize)).abs());
-        slopes.fold(limit(i), f64::max)
+    let size = |x: f64| if x == 0.0 { 1.0 } else { x.abs() };
+    let at = |x: &[f64], size: &dyn Fn(f64) -> f64| -> Result<Vec<f64>, EvaluationError> {
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        model.jacobian(x, &mut jacobian)?;
+        let slope = |at: usize| (jacobian[at] * size(x[meta.jacobian.columns[at] as usize])).abs();
+        Ok((0..meta.rows()).map(|i| meta.jacobian.range(i).map(slope).fold(limit(i), f64::max)).collect())
     };
+    let (terms, slopes) = (at(reference, &f64::abs)?, at(start, &size)?);
+    let scale = |i: usize| if limit(i) > 0.0 { terms[i] } else { slopes[i] };
     Ok((0..meta.rows()).map(scale).map(|s| if s > 0.0 { s } else { 1.0 }).collect())
 }
 
@@ -197,7 +201,7 @@ mod tests {
             .row(-INF, 1.0, |x| x[0] * x[0] + x[1] * x[1])
             .row(9.0, 9.0, |x| x[0] * x[1])
             .row(3.0, INF, |x| x[0] - x[1]);
-        let elastic = Elastic::new(&model, vec![0, 1, 2], &[1.5, 2.0]).unwrap();
+        let elastic = Elastic::new(&model, vec![0, 1, 2], &[1.5, 2.0], &[1.5, 2.0]).unwrap();
         let start = elastic.meta().start.clone();
         assert_eq!(start.len(), 6);
         let mut values = [0.0; 3];
@@ -219,7 +223,7 @@ mod tests {
     #[test]
     fn rows_left_out_do_not_count() {
         let model = Sample::new(&[0.0], |x| x[0]).row(1.0, INF, |x| x[0]).row(-INF, -1.0, |x| x[0]);
-        let elastic = Elastic::new(&model, vec![1], &[0.0]).unwrap();
+        let elastic = Elastic::new(&model, vec![1], &[0.0], &[0.0]).unwrap();
         assert_eq!((elastic.meta().rows(), elastic.row(0), elastic.violation(&elastic.meta().start)), (1, 1, 1.0 + ROOM));
     }
 }

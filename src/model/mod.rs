@@ -15,6 +15,7 @@ pub mod domain;
 pub mod elastic;
 mod elements;
 pub mod evaluator;
+pub mod freed;
 pub mod logarithmic;
 pub mod rebounded;
 #[cfg(test)]
@@ -32,6 +33,7 @@ pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
+pub use freed::{Freed, Limit};
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 

@@ -56,6 +56,28 @@ struct Height {
     noise: f64,
 }
 
+/// Which variable is moved, its first step, and how the others go with it.
+struct Lead {
+    pivot: usize,
+    step: f64,
+    others: Vec<(usize, f64)>,
+}
+
+impl Lead {
+    /// `None` where nothing moves, or the variable that moves most has a bound ahead.
+    fn new(site: &Site<'_>, direction: &[f64]) -> Option<Lead> {
+        let share = |j: usize| (direction[j] / site.sizes[j]).abs();
+        let pivot = (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+        let (way, meta) = (direction[pivot], site.meta());
+        let open = if way > 0.0 { meta.upper[pivot] == f64::INFINITY } else { meta.lower[pivot] == f64::NEG_INFINITY };
+        if !open || way == 0.0 || !way.is_finite() {
+            return None;
+        }
+        let others = direction.iter().enumerate().filter(|&(j, v)| j != pivot && *v != 0.0).map(|(j, v)| (j, v / way));
+        Some(Lead { pivot, step: way.signum() * FIRST * site.sizes[pivot], others: others.collect() })
+    }
+}
+
 impl Height {
     fn rises_above(self, base: Height) -> bool {
         self.value > base.value + 4.0 * (base.noise + self.noise)
@@ -68,35 +90,26 @@ impl<'a> Valley<'a> {
         Valley { site }
     }
 
-    /// Whether, as variable `pivot` goes on for ever in this direction (±1), the others following the floor, the objective never
-    /// rises, and falls: either on that way, or, where it is level to the last digit, on the way that leads here from the other
-    /// side. (A function that is level along a half-line and rises on the other one is level for rounding alone: it nears an
-    /// asymptote. One that is piecewise has its pieces as rows here, and is judged feasible or not.)
-    pub fn runs_off(&self, pivot: usize, direction: f64) -> bool {
-        let meta = self.site.meta();
-        let open = if direction > 0.0 { meta.upper[pivot] == f64::INFINITY } else { meta.lower[pivot] == f64::NEG_INFINITY };
-        if !open {
-            return false;
-        }
+    /// Whether, going on for ever in this direction (length n; the variable that moves most is led, the others follow the floor), the
+    /// objective never rises, and falls: either on that way, or, where it is level to the last digit, on the way that leads here
+    /// from the other side. (A function that is level along a half-line and rises on the other one is level for rounding alone: it
+    /// nears an asymptote. One that is piecewise has its pieces as rows here, and is judged feasible or not.)
+    pub fn runs_off(&self, direction: &[f64]) -> bool {
+        let Some(lead) = Lead::new(&self.site, direction) else { return false };
         let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
-        let Some((here, base)) =
-            settle(&self.site, pivot, start).and_then(|floor| self.height(&floor).map(|height| (floor, height)))
-        else {
-            return false;
-        };
-        match self.outwards(pivot, direction, here.clone(), base) {
+        let Some((here, base)) = self.place(&lead, self.site.x[lead.pivot], &start) else { return false };
+        match self.outwards(&lead, here.clone(), base) {
             Some(fall) if fall > 0.0 => true,
-            Some(_) => self.rises_back(pivot, -direction, here, base),
+            Some(_) => self.rises_back(&lead, here, base),
             None => false,
         }
     }
 
     /// By how much the objective falls on the way outwards, beyond rounding; `None` where it rises or ends at a limit.
-    fn outwards(&self, pivot: usize, direction: f64, mut floor: Floor, base: Height) -> Option<f64> {
-        let (mut last, origin) = (base, floor.x[pivot]);
+    fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<f64> {
+        let (mut last, origin) = (base, floor.x[lead.pivot]);
         for doubling in 0..DOUBLINGS {
-            let step = FIRST * self.site.sizes[pivot] * f64::from(doubling).exp2();
-            let Some((settled, height)) = self.place(pivot, origin + direction * step, &floor) else {
+            let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= ENOUGH { break } else { return None }
             };
             if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
@@ -112,31 +125,31 @@ impl<'a> Valley<'a> {
 
     /// Whether the objective rises, beyond rounding, on the way back: by growing steps, or, where numbers are large, in decades
     /// towards zero. Where the model's values end on that way, the last place before is looked for.
-    fn rises_back(&self, pivot: usize, direction: f64, here: Floor, base: Height) -> bool {
-        let origin = here.x[pivot];
-        let steps = BACK.map(|doubling| origin + direction * FIRST * self.site.sizes[pivot] * f64::from(doubling).exp2());
+    fn rises_back(&self, lead: &Lead, here: Floor, base: Height) -> bool {
+        let origin = here.x[lead.pivot];
+        let steps = BACK.map(|doubling| origin - lead.step * f64::from(doubling).exp2());
         let decades = (1..DECADES).map(|decade| origin * 10f64.powi(-decade));
-        let towards_zero = origin * direction < 0.0;
-        self.rises_along(pivot, steps, &here, base) || (towards_zero && self.rises_along(pivot, decades, &here, base))
+        let towards_zero = origin * lead.step > 0.0;
+        self.rises_along(lead, steps, &here, base) || (towards_zero && self.rises_along(lead, decades, &here, base))
     }
 
-    fn rises_along(&self, pivot: usize, ways: impl Iterator<Item = f64>, here: &Floor, base: Height) -> bool {
+    fn rises_along(&self, lead: &Lead, ways: impl Iterator<Item = f64>, here: &Floor, base: Height) -> bool {
         let mut floor = here.clone();
         for target in ways {
-            match self.place(pivot, target, &floor) {
+            match self.place(lead, target, &floor) {
                 Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
                 Some((settled, _)) => floor = settled,
-                None => return self.rises_before(pivot, target, floor, base),
+                None => return self.rises_before(lead, target, floor, base),
             }
         }
         false
     }
 
     /// The same between a place that has a value and one that has none.
-    fn rises_before(&self, pivot: usize, mut without: f64, mut floor: Floor, base: Height) -> bool {
+    fn rises_before(&self, lead: &Lead, mut without: f64, mut floor: Floor, base: Height) -> bool {
         for _ in 0..BISECTIONS {
-            let target = 0.5 * (floor.x[pivot] + without);
-            match self.place(pivot, target, &floor) {
+            let target = 0.5 * (floor.x[lead.pivot] + without);
+            match self.place(lead, target, &floor) {
                 Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
                 Some((settled, _)) => floor = settled,
                 None => without = target,
@@ -145,11 +158,15 @@ impl<'a> Valley<'a> {
         false
     }
 
-    /// The floor and its height where the pivot stands there.
-    fn place(&self, pivot: usize, target: f64, from: &Floor) -> Option<(Floor, Height)> {
+    /// The floor and its height where the pivot stands there; the others begin where the direction leads them.
+    fn place(&self, lead: &Lead, target: f64, from: &Floor) -> Option<(Floor, Height)> {
+        let (meta, way) = (self.site.meta(), target - from.x[lead.pivot]);
         let mut next = from.clone();
-        next.x[pivot] = target;
-        let floor = settle(&self.site, pivot, next)?;
+        for &(j, share) in &lead.others {
+            next.x[j] = (next.x[j] + way * share).clamp(meta.lower[j], meta.upper[j]);
+        }
+        next.x[lead.pivot] = target;
+        let floor = settle(&self.site, lead.pivot, next)?;
         let height = self.height(&floor)?;
         Some((floor, height))
     }
@@ -190,14 +207,16 @@ mod tests {
     use crate::model::sample::Sample;
 
     /// Every row held to its lower limit.
-    fn runs_off(model: &Sample, x: &[f64], multipliers: &[f64], pivot: usize, direction: f64) -> bool {
+    fn runs_off(model: &Sample, x: &[f64], multipliers: &[f64], pivot: usize, way: f64) -> bool {
+        let mut direction = vec![0.0; x.len()];
+        direction[pivot] = way;
         let meta = model.meta();
         let sizes: Vec<f64> = x.iter().map(|x| x.abs().max(1.0)).collect();
         let free: Vec<usize> = (0..x.len()).collect();
         let held: Vec<(usize, f64)> = meta.row_lower.iter().copied().enumerate().collect();
         let is_feasible = |_: &[f64]| true;
         let site = Site { model, x, sizes: &sizes, free: &free, held: &held, multipliers, is_feasible: &is_feasible };
-        Valley::new(site).runs_off(pivot, direction)
+        Valley::new(site).runs_off(&direction)
     }
 
     #[test]

@@ -229,7 +229,7 @@ fn share_text(share: f64) -> String {
 }
 
 fn conflict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let Some(Conflict { violated_rows, rows, bounds, relaxations, minimal }) = &findings.outcome.conflict else {
+    let Some(Conflict { violated_rows, rows, bounds, alternatives, minimal }) = &findings.outcome.conflict else {
         return Ok(());
     };
     let model = findings.model;
@@ -251,8 +251,15 @@ fn conflict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         let names: Vec<String> = row_names.chain(ends).collect();
         writeln!(out, "{set}: {}", listing(names.into_iter(), MOST_LINES))?;
     }
-    if !relaxations.is_empty() {
-        writeln!(out, "Moving these limits would make it feasible, with the least sum: {}", amounts(relaxations))?;
+    if !alternatives.is_empty() {
+        writeln!(out, "\nAny one of these moves makes it feasible")?;
+        let mut table = TextTable::new(1, &["limit", "from", "to", "relative", ""]);
+        for found in alternatives.iter().take(MOST_LINES) {
+            let least = if found.least { "the least" } else { "enough" };
+            let (from, to) = (significant(found.from, 6), significant(found.to, 6));
+            table.add(vec![found.limit.label(model), from, to, share_text(found.relative()), least.into()]);
+        }
+        write!(out, "{table}")?;
     }
     Ok(())
 }

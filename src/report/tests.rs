@@ -3,7 +3,8 @@
 use super::*;
 use crate::backends::{Solution, Termination};
 use crate::certificate::{Certificate, Scope};
-use crate::crosscheck::{Agreement, Answer, Conflict, Status};
+use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
+use crate::model::Limit as AnyLimit;
 use crate::model::sample::Sample;
 
 fn model() -> Sample {
@@ -55,10 +56,12 @@ fn outcome() -> Outcome {
     };
     let answer = Answer {
         backend: "argmin",
-        attempt: 1,
         solution,
         objective: Some(1.9),
         certificate: Some(certificate()),
+        feasible: true,
+        attempt: 1,
+        gave_way: false,
         remarks: Vec::new(),
     };
     Outcome {
@@ -138,7 +141,7 @@ fn the_summary_of_an_infeasible_problem_names_the_conflict() {
         violated_rows: vec![(0, 0.25)],
         rows: vec![0],
         bounds: vec![(1, true)],
-        relaxations: vec![(0, -0.25)],
+        alternatives: vec![LimitMove { limit: AnyLimit::Bound(1, true), from: 0.7, to: 0.95, least: true }],
         minimal: true,
     };
     let infeasible = Outcome {

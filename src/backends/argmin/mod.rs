@@ -4,7 +4,6 @@
 mod augmented_lagrangian;
 mod components;
 mod interior_point;
-mod opinions;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -61,9 +60,7 @@ impl Backend for Argmin {
             }
             _ => {
                 let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
-                let found = run(solver, &evaluator, job);
-                let is_auto = job.algorithm == "auto";
-                (INTERIOR_POINT, if is_auto { opinions::better(&evaluator, job, found) } else { found })
+                (INTERIOR_POINT, run(solver, &evaluator, job))
             }
         };
         solution(algorithm, finished, &evaluator, began)

@@ -3,5 +3,5 @@
 mod finite_steps;
 mod trial_point;
 
-pub(super) use finite_steps::find;
+pub(super) use finite_steps::{confirm, find};
 pub(super) use trial_point::Trial;

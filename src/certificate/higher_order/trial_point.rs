@@ -38,6 +38,11 @@ impl<'x> Trial<'x> {
         (0..self.x.len()).all(inside) && (0..self.rows.len()).all(meets)
     }
 
+    /// f + yᵀ(c − limit) with the judged point's multipliers.
+    pub(in crate::certificate) fn lagrangian(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        self.terms(point, multipliers).map(|(y, distance)| y * distance).sum::<f64>() + self.objective
+    }
+
     /// f + Σ|y_i|·violation_i: what violations within the tolerance gain is taken off again.
     pub(in crate::certificate) fn penalised(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
         self.terms(point, multipliers).map(|(y, distance)| (y * distance).max(0.0)).sum::<f64>() + self.objective

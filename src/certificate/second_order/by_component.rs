@@ -2,9 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::cone::Build;
 use super::small_kkt;
 use super::system::{Active, Choice, Hessian, ROUNDING};
-use super::{Curvature, judge as judge_choice};
+use super::weak_limits::{self, OnCone};
+use super::whole::{self, Curvature};
 use crate::certificate::point::Point;
 use crate::linear_algebra::saddle_point::SaddlePoint;
 use crate::linear_algebra::{FactorizationError, Partition};
@@ -33,42 +35,51 @@ pub(super) fn judge(
     active: &Active<'_>,
     hessian: &Hessian,
     partition: &Partition,
+    cone: Option<Build>,
 ) -> Result<Curvature, FactorizationError> {
     let examine = |piece: &mut Piece, k: usize| {
-        choose(&mut piece.choice, point, active, partition, k);
-        (k, piece.examine(point, hessian))
+        choose(&mut piece.choice, point, active, hessian, (partition, k));
+        piece.examine(point, active, hessian, cone).map(|found| (k, found))
     };
-    let noted: Vec<(usize, Found)> = (0..partition.len())
-        .into_par_iter()
-        .with_min_len(BATCH)
-        .map_init(Piece::default, examine)
-        .filter(|(_, found)| *found != Found::default())
-        .collect();
+    let is_noted = |found: &Result<(usize, Found), _>| found.as_ref().map_or(true, |(_, found)| found.is_worth_noting());
+    let noted: Result<Vec<(usize, Found)>, FactorizationError> =
+        (0..partition.len()).into_par_iter().with_min_len(BATCH).map_init(Piece::default, examine).filter(is_noted).collect();
     let mut curvature = Curvature::default();
-    for (k, found) in noted {
+    for (k, found) in noted? {
         curvature.dependent |= found.dependent;
         curvature.singular |= found.singular;
+        curvature.add(found.on_cone);
         if found.bends_down && curvature.escape.is_none() {
             let mut choice = Choice::default();
-            choose(&mut choice, point, active, partition, k);
-            curvature.escape = judge_choice(point, active, hessian, &choice)?.escape;
+            choose(&mut choice, point, active, hessian, (partition, k));
+            curvature.escape = whole::judge(point, active, hessian, &choice, None)?.escape;
+            // The dense test saw it, the other lost the direction.
+            if curvature.escape.is_none() {
+                curvature.leave_undecided(0);
+            }
         }
     }
-    curvature.singular |= curvature.escape.is_some();
     Ok(curvature)
 }
 
-fn choose(choice: &mut Choice, point: &Point<'_>, active: &Active<'_>, partition: &Partition, k: usize) {
+fn choose(choice: &mut Choice, point: &Point<'_>, active: &Active<'_>, hessian: &Hessian, (partition, k): (&Partition, usize)) {
     let (variables, rows) = (partition.variables(k).iter(), partition.rows(k).iter());
-    choice.choose(point, active, variables.map(|&j| j as usize), rows.map(|&i| i as usize));
+    choice.choose(point, active, Some(hessian), (variables.map(|&j| j as usize), rows.map(|&i| i as usize)));
 }
 
 /// What one piece's matrices say.
-#[derive(Default, PartialEq)]
 struct Found {
     dependent: bool,
     singular: bool,
+    /// Where all active limits hold.
     bends_down: bool,
+    on_cone: OnCone,
+}
+
+impl Found {
+    fn is_worth_noting(&self) -> bool {
+        self.dependent || self.singular || self.bends_down || self.on_cone != OnCone::PROVED
+    }
 }
 
 /// A thread's room.
@@ -79,35 +90,36 @@ struct Piece {
 }
 
 impl Piece {
-    fn examine(&mut self, point: &Point<'_>, hessian: &Hessian) -> Found {
-        let (choice, matrices) = (&self.choice, &mut self.matrices);
+    fn examine(
+        &mut self,
+        point: &Point<'_>,
+        active: &Active<'_>,
+        hessian: &Hessian,
+        cone: Option<Build>,
+    ) -> Result<Found, FactorizationError> {
+        let Piece { choice, matrices } = self;
         small_kkt::fill(matrices, point, hessian, &choice.free, &choice.held);
         let dependent = matrices.has_dependent_rows();
         let singular = matrices.bends_down(-ROUNDING);
         // What bends up beyond rounding does not bend down.
-        let mut bends_down = singular && matrices.bends_down(ROUNDING);
-        if !bends_down && !dependent {
-            bends_down = self.bends_down_inwards(point, hessian);
-        }
-        Found { dependent, singular, bends_down }
+        let bends_down = singular && matrices.bends_down(ROUNDING);
+        let on_cone = match cone {
+            Some(build) if !bends_down && !self.bends_up_without_weak_limits(point, hessian) => {
+                weak_limits::judge(point, active, hessian, &self.choice, build)?
+            }
+            _ => OnCone::PROVED,
+        };
+        Ok(Found { dependent, singular, bends_down, on_cone })
     }
 
-    /// The same with one weakly active limit let go.
-    fn bends_down_inwards(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
-        let (Choice { free, held, weak_bounds, weak_rows }, matrices) = (&self.choice, &mut self.matrices);
-        let mut bends_down = |free: &[usize], held: &[usize]| {
-            small_kkt::fill(matrices, point, hessian, free, held);
-            matrices.bends_down(ROUNDING)
-        };
-        let by_bound = weak_bounds.iter().filter(|&&j| hessian.size[j] > 0.0).any(|&j| {
-            let mut more = free.clone();
-            more.insert(more.partition_point(|&k| k < j), j);
-            bends_down(&more, held)
-        });
-        by_bound
-            || weak_rows.iter().any(|&i| {
-                let fewer: Vec<usize> = held.iter().copied().filter(|&k| k != i).collect();
-                bends_down(free, &fewer)
-            })
+    /// The sufficient test, cheaper than the cone's.
+    fn bends_up_without_weak_limits(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
+        let relaxed = self.choice.relaxed();
+        let choice = relaxed.as_ref().unwrap_or(&self.choice);
+        if choice.weak() == 0 {
+            return true;
+        }
+        small_kkt::fill(&mut self.matrices, point, hessian, &choice.loose_variables(), &choice.strict_rows());
+        !self.matrices.bends_down(-ROUNDING)
     }
 }

@@ -14,7 +14,7 @@ const FLAT_STEPS: usize = 4;
 /// [S + shift, Aᵀ; A, −δI]
 pub(in crate::certificate) struct Kkt<'a> {
     point: &'a Point<'a>,
-    free: &'a [usize],
+    free: Vec<usize>,
     /// Entries of S: (place among the free, place, value).
     hessian: Vec<(u32, u32, f64)>,
     /// Entries of A, each row divided by its slope: (row, place among the free, value).
@@ -31,7 +31,7 @@ impl<'a> Kkt<'a> {
     pub(in crate::certificate) fn new(
         point: &'a Point<'a>,
         hessian: &Hessian,
-        free: &'a [usize],
+        free: &[usize],
         held: &[usize],
     ) -> Result<Self, FactorizationError> {
         let place = places(point.meta().variables(), free);
@@ -55,7 +55,7 @@ impl<'a> Kkt<'a> {
 
     fn assemble(
         point: &'a Point<'a>,
-        free: &'a [usize],
+        free: &[usize],
         held: &[usize],
         (hessian, size): (Vec<(u32, u32, f64)>, Vec<f64>),
         build: impl Fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>,
@@ -71,7 +71,7 @@ impl<'a> Kkt<'a> {
         positions.extend(hessian.iter().map(|&(row, column, _)| (row, column)));
         positions.extend(rows.iter().map(|&(row, column, _)| (p + row, column)));
         let matrix = build(free.len() + held.len(), &positions)?;
-        Ok(Kkt { point, free, hessian, rows, size, slopes, held: held.len(), matrix })
+        Ok(Kkt { point, free: free.to_vec(), hessian, rows, size, slopes, held: held.len(), matrix })
     }
 
     /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
@@ -133,9 +133,17 @@ impl<'a> Kkt<'a> {
     ) -> Result<Vec<Vec<f64>>, FactorizationError> {
         self.factor_shifted(FLAT_SHIFT)?;
         let (p, mut found) = (self.free.len(), Vec::<Vec<f64>>::new());
-        for k in 0..most.min(p + 1) {
-            let unit = |at: usize| if at == (k - 1) * p / most.min(p) { 1.0 } else { 0.0 };
-            let mut v: Vec<f64> = (0..p).map(|at| if k == 0 { scattered(at) } else { unit(at) }).collect();
+        // Quadrants first, then single variables.
+        let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
+        let singles = p.min(most.saturating_sub(quadrants));
+        for k in 0..quadrants + singles {
+            let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))) % 2 == 0 || k == 0 { 1.0 } else { -1.0 };
+            let start = |at: usize| match k.checked_sub(quadrants) {
+                None => sign(at) * scattered(at),
+                Some(single) if at == single * p / singles => 1.0,
+                Some(_) => 0.0,
+            };
+            let mut v: Vec<f64> = (0..p).map(start).collect();
             let mut size = 0.0;
             for _ in 0..FLAT_STEPS {
                 v.extend(std::iter::repeat_n(0.0, self.held));

@@ -17,64 +17,120 @@ pub(in crate::certificate) struct Active<'a> {
     pub(in crate::certificate) multipliers: &'a Multipliers,
 }
 
-/// Which variables and rows are looked at.
-#[derive(Default)]
+/// A limit whose scaled multiplier |y_i|·slope_i/σ is at most this is weakly active: as much is accepted of ∂L/∂x_j as a residual.
+const WEAK: f64 = 1e-6;
+/// At most this, and at most NEARLY_FLAT times the curvature there: nearly weakly active. Where the Lagrangian bends by a hundredth
+/// of the curvature about a limit, a slope of 1e−6 makes up to 1e−4 of a multiplier, in a chain of two 1e−3.
+const NEARLY_WEAK: f64 = 1e-3;
+const NEARLY_FLAT: f64 = 1e-2;
+
+/// Which variables and rows are looked at; all lists ascend.
+#[derive(Default, Clone, PartialEq)]
 pub(in crate::certificate) struct Choice {
     /// Free variables.
     pub(in crate::certificate) free: Vec<usize>,
     /// Active rows.
     pub(in crate::certificate) held: Vec<usize>,
-    /// Variables on bounds with hardly a multiplier.
+    /// Variables on weakly active bounds.
     pub(in crate::certificate) weak_bounds: Vec<usize>,
-    /// Active rows with hardly a multiplier.
+    /// Weakly active rows, among those held.
     pub(in crate::certificate) weak_rows: Vec<usize>,
+    /// Variables on bounds that are nearly weakly active, and such rows.
+    nearly_weak_bounds: Vec<usize>,
+    nearly_weak_rows: Vec<usize>,
 }
 
 impl Choice {
     pub(in crate::certificate) fn all(point: &Point<'_>, active: &Active<'_>) -> Choice {
         let mut choice = Choice::default();
-        choice.choose(point, active, 0..active.bounds.len(), 0..active.rows.len());
+        choice.choose(point, active, None, (0..active.bounds.len(), 0..active.rows.len()));
         choice
     }
 
-    /// Free variables and those on bounds that hardly push, ascending.
-    pub(in crate::certificate) fn loose_variables(&self) -> Vec<usize> {
-        let mut loose = [&self.free[..], &self.weak_bounds].concat();
-        loose.sort_unstable();
-        loose
+    /// The same, with nearly weakly active limits among the weakly active ones.
+    pub(in crate::certificate) fn relaxed_all(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Choice {
+        let choice = Choice::noting_nearly_weak(point, active, hessian);
+        choice.relaxed().unwrap_or(choice)
     }
 
-    /// Equalities and active rows that push.
+    /// The same, with nearly weakly active limits noted.
+    pub(super) fn noting_nearly_weak(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Choice {
+        let mut choice = Choice::default();
+        choice.choose(point, active, Some(hessian), (0..active.bounds.len(), 0..active.rows.len()));
+        choice
+    }
+
+    /// Free variables and those on weakly active bounds.
+    pub(in crate::certificate) fn loose_variables(&self) -> Vec<usize> {
+        merged(&self.free, &self.weak_bounds)
+    }
+
+    /// Equalities and active rows that are not weakly active.
     pub(in crate::certificate) fn strict_rows(&self) -> Vec<usize> {
         self.held.iter().copied().filter(|i| self.weak_rows.binary_search(i).is_err()).collect()
     }
 
-    /// Sorts some variables and rows, given ascending.
-    pub(in crate::certificate) fn choose(
+    /// Number of weakly active limits.
+    pub(super) fn weak(&self) -> usize {
+        self.weak_bounds.len() + self.weak_rows.len()
+    }
+
+    /// The same with nearly weakly active limits as weakly active ones; `None` where there are no such.
+    pub(super) fn relaxed(&self) -> Option<Choice> {
+        let more = !self.nearly_weak_bounds.is_empty() || !self.nearly_weak_rows.is_empty();
+        more.then(|| Choice {
+            weak_bounds: merged(&self.weak_bounds, &self.nearly_weak_bounds),
+            weak_rows: merged(&self.weak_rows, &self.nearly_weak_rows),
+            free: self.free.clone(),
+            held: self.held.clone(),
+            ..Choice::default()
+        })
+    }
+
+    fn clear(&mut self) {
+        let bounds = [&mut self.free, &mut self.weak_bounds, &mut self.nearly_weak_bounds];
+        let rows = [&mut self.held, &mut self.weak_rows, &mut self.nearly_weak_rows];
+        bounds.into_iter().chain(rows).for_each(Vec::clear);
+    }
+
+    /// Sorts some variables and rows, given ascending; nearly weakly active limits are noted where the curvature is known.
+    pub(super) fn choose(
         &mut self,
         point: &Point<'_>,
         active: &Active<'_>,
-        variables: impl Iterator<Item = usize>,
-        rows: impl Iterator<Item = usize>,
+        hessian: Option<&Hessian>,
+        (variables, rows): (impl Iterator<Item = usize>, impl Iterator<Item = usize>),
     ) {
-        [&mut self.free, &mut self.held, &mut self.weak_bounds, &mut self.weak_rows].into_iter().for_each(Vec::clear);
-        let weak = 1e-6 * point.scale();
+        self.clear();
+        let curvature = |j: usize| hessian.map_or(0.0, |hessian| hessian.size[j]);
         for j in variables {
+            let share = (active.multipliers.bounds[j] * point.sizes[j]).abs() / point.scale();
             match active.bounds[j] {
                 Side::None => self.free.push(j),
-                Side::Lower | Side::Upper if (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak => {
-                    self.weak_bounds.push(j);
-                }
+                Side::Equal => {}
+                _ if share <= WEAK => self.weak_bounds.push(j),
+                _ if share <= NEARLY_WEAK.min(NEARLY_FLAT * curvature(j)) => self.nearly_weak_bounds.push(j),
                 _ => {}
             }
         }
         for i in rows.filter(|&i| active.rows[i] != Side::None && point.slopes[i] > 0.0) {
             self.held.push(i);
-            if active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak {
-                self.weak_rows.push(i);
+            let share = (active.multipliers.rows[i] * point.slopes[i]).abs() / point.scale();
+            let sharpest = || point.meta().jacobian.row(i).iter().fold(0.0, |most: f64, &j| most.max(curvature(j as usize)));
+            match active.rows[i] {
+                Side::Equal => {}
+                _ if share <= WEAK => self.weak_rows.push(i),
+                _ if share <= NEARLY_WEAK && share <= NEARLY_FLAT * sharpest() => self.nearly_weak_rows.push(i),
+                _ => {}
             }
         }
     }
+}
+
+fn merged(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut both = [a, b].concat();
+    both.sort_unstable();
+    both
 }
 
 /// S = D∇²L D/σ along the model's pattern, and row by row the sum of the magnitudes it is made of.
@@ -116,6 +172,17 @@ impl Hessian {
             }
         }
         Ok(hessian)
+    }
+
+    /// vᵀSv/|v|² over relative changes v of the variables, from a direction in the user's.
+    pub(in crate::certificate) fn bend(&self, point: &Point<'_>, direction: &[f64]) -> f64 {
+        let v: Vec<f64> = direction.iter().zip(&point.sizes).map(|(step, size)| step / size).collect();
+        let square: f64 = v.iter().map(|v| v * v).sum();
+        let term = |(at, (row, column)): (usize, (usize, usize))| {
+            let product = self.values[at] * v[row] * v[column];
+            if row == column { product } else { 2.0 * product }
+        };
+        point.meta().hessian.iter().enumerate().map(term).sum::<f64>() / square
     }
 }
 

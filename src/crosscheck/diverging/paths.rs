@@ -1,7 +1,7 @@
 //! Bent ways to infinity and ways to the domain's edge, which no straight ray shows.
 
 use super::{Fall, Ray, classify, size};
-use crate::crosscheck::attempt::Referee;
+use crate::crosscheck::session::Session as Referee;
 
 /// Decades of a curve, and of the way towards an edge.
 const DECADES: i32 = 9;

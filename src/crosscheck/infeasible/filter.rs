@@ -6,8 +6,6 @@ use crate::model::Rebounded;
 
 /// Limits tried at the most.
 const TRIED: usize = 60;
-/// Seconds in all.
-const SECONDS: f64 = 20.0;
 
 /// A row, or a bound (variable, upper side).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,10 +34,7 @@ pub(super) struct Core {
 /// Leaves away each limit in turn, and for good where the others conflict without it. Bounds outside the set are lifted, so that
 /// the conflict is the set's alone; where that cannot be decided they stay, and the set is not complete.
 pub(super) fn filter(work: &Work<'_>, best: &Relaxed) -> Core {
-    let rows = best.carriers.iter().map(|&row| Member::Row(row));
-    let members: Vec<Member> = rows.chain(work.bounds(best).into_iter().map(|(j, upper)| Member::Bound(j, upper))).collect();
-    let budget = work.referee.clock.share(0.5, SECONDS);
-    let is_over = || budget.deadline.is_some_and(|end| std::time::Instant::now() >= end) || work.referee.clock.is_over();
+    let members = work.members(best);
     let first = members.clone();
     let lifted = Trial { work, start: &best.x, first: &first, only_members: true };
     let trial = match lifted.conflicts(&members) {
@@ -48,7 +43,7 @@ pub(super) fn filter(work: &Work<'_>, best: &Relaxed) -> Core {
     };
     let (mut members, mut kept, mut complete) = (members, Vec::new(), trial.only_members);
     while let Some(&next) = members.iter().find(|member| !kept.contains(*member)) {
-        if is_over() || kept.len() >= TRIED {
+        if work.is_over() || kept.len() >= TRIED {
             return Core { members, complete: false };
         }
         let fewer: Vec<Member> = members.iter().copied().filter(|&member| member != next).collect();
@@ -104,10 +99,7 @@ impl Trial<'_, '_> {
         let upper = (0..meta.variables()).map(|j| if keeps(j, true) { meta.upper[j] } else { f64::INFINITY });
         let model = Rebounded::new(self.work.model, lower.collect(), upper.collect());
         match self.work.relax_model(&model, &rows, self.start).filter(|relaxed| relaxed.certificate.certified) {
-            Some(relaxed) if relaxed.violation > self.work.least() => {
-                let bounds = self.work.bounds(&relaxed).into_iter().map(|(j, upper)| Member::Bound(j, upper));
-                Decision::Conflict(relaxed.carriers.iter().map(|&row| Member::Row(row)).chain(bounds).collect())
-            }
+            Some(relaxed) if relaxed.violation > self.work.least() => Decision::Conflict(self.work.members(&relaxed)),
             Some(_) => Decision::Compatible,
             None => Decision::Open,
         }

@@ -3,11 +3,22 @@
 use serde::Serialize;
 
 use super::super::Findings;
+use crate::crosscheck::LimitMove;
 
 #[derive(Serialize)]
 struct Amount {
     name: String,
     amount: f64,
+}
+
+/// A move that is enough on its own.
+#[derive(Serialize)]
+struct Alternative {
+    limit: String,
+    from: f64,
+    to: f64,
+    relative: Option<f64>,
+    least: bool,
 }
 
 #[derive(Serialize)]
@@ -16,7 +27,7 @@ pub(super) struct ConflictPart {
     constraints: Vec<String>,
     places: Vec<Option<String>>,
     bounds: Vec<String>,
-    relaxations: Vec<Amount>,
+    alternatives: Vec<Alternative>,
     minimal: bool,
 }
 
@@ -26,13 +37,20 @@ impl ConflictPart {
         let amounts = |list: &[(usize, f64)]| {
             list.iter().map(|&(i, amount)| Amount { name: model.row_name(i), amount }).collect::<Vec<_>>()
         };
+        let alternative = |found: &LimitMove| Alternative {
+            limit: found.limit.label(model),
+            from: found.from,
+            to: found.to,
+            relative: Some(found.relative()).filter(|share| share.is_finite()),
+            least: found.least,
+        };
         let side = |upper| if upper { "upper" } else { "lower" };
         Some(ConflictPart {
             violated: amounts(&conflict.violated_rows),
             constraints: conflict.rows.iter().map(|&i| model.row_name(i)).collect(),
             places: conflict.rows.iter().map(|&i| model.row_place(i)).collect(),
             bounds: conflict.bounds.iter().map(|&(j, upper)| format!("{}.{}", model.variable_name(j), side(upper))).collect(),
-            relaxations: amounts(&conflict.relaxations),
+            alternatives: conflict.alternatives.iter().map(alternative).collect(),
             minimal: conflict.minimal,
         })
     }

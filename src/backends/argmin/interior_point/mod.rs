@@ -45,7 +45,7 @@ use attempts::Attempts;
 use begin::Beginning;
 use engine::{Ending, Engine};
 use form::Source;
-pub(super) use start::{pushed, towards_middle};
+pub(super) use start::pushed;
 
 /// A primal-dual interior point with a filter line search.
 pub(super) struct InteriorPoint<'a> {

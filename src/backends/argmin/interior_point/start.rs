@@ -88,7 +88,7 @@ fn middle(start: f64, lower: f64, upper: f64, j: usize) -> f64 {
 }
 
 /// The model's x moved this share of the way towards the middle of its bounds.
-pub(in crate::backends::argmin) fn towards_middle(meta: &Meta, x: &[f64], share: f64) -> Vec<f64> {
+pub(super) fn towards_middle(meta: &Meta, x: &[f64], share: f64) -> Vec<f64> {
     let moved = |(j, &x): (usize, &f64)| x + share * (middle(x, meta.lower[j], meta.upper[j], j) - x);
     x.iter().enumerate().map(moved).collect()
 }

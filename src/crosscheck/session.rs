@@ -1,7 +1,8 @@
-//! One run of one backend, judged.
+//! The task with what is needed to run backends and to judge what they bring.
 
 use super::clock::Clock;
 use super::{Answer, Task};
+use super::{pool, work};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model};
@@ -22,13 +23,13 @@ struct Start<'r> {
 
 /// A backend with its algorithm.
 #[derive(Clone, Copy)]
-pub(super) struct Contestant<'a> {
+pub(super) struct Solver<'a> {
     pub(super) backend: &'a dyn Backend,
     pub(super) algorithm: &'a str,
 }
 
 /// The task with everything needed to run and to judge.
-pub(super) struct Referee<'a> {
+pub(super) struct Session<'a> {
     pub(super) task: &'a Task<'a>,
     pub(super) judge: Certifier<'a>,
     pub(super) tolerances: Tolerances,
@@ -36,12 +37,12 @@ pub(super) struct Referee<'a> {
     strict: Certifier<'a>,
 }
 
-impl<'a> Referee<'a> {
+impl<'a> Session<'a> {
     pub(super) fn new(task: &'a Task<'a>) -> Self {
         let settings = task.settings;
         let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
         let strict = strict(tolerances, SPARE);
-        Referee {
+        Session {
             task,
             judge: Certifier::new(task.model, task.class, tolerances),
             strict: Certifier::new(task.model, task.class, strict),
@@ -50,10 +51,28 @@ impl<'a> Referee<'a> {
         }
     }
 
+    /// The model backends work on: the substituted one, where there is one (there, geometric programs are convex).
+    pub(super) fn working_model(&self) -> &'a dyn Model {
+        self.task.substitution.map_or(self.task.model, |other| other.model())
+    }
+
+    /// Work one evaluation of the working model costs a backend.
+    pub(super) fn cost(&self, solver: Solver<'_>) -> f64 {
+        solver.backend.work_per_evaluation(self.working_model()).max(1.0)
+    }
+
+    /// A budget of so much work on `model`, with a deadline far beyond what that should take.
+    pub(super) fn budget(&self, solver: Solver<'_>, model: &dyn Model, allowed: f64) -> Budget<'a> {
+        let whole = self.clock.share(0.9, work::fence(allowed));
+        let evaluations = allowed / solver.backend.work_per_evaluation(model).max(1.0);
+        // Saturates: an infinite allowance is u64::MAX.
+        Budget { max_evaluations: whole.max_evaluations.min(evaluations as u64), ..whole }
+    }
+
     /// Solves from `start` (user's variables) and judges the answer.
     pub(super) fn attempt(
         &self,
-        contestant: Contestant<'_>,
+        solver: Solver<'_>,
         start: &[f64],
         multipliers: Option<&[f64]>,
         budget: Budget<'_>,
@@ -66,8 +85,8 @@ impl<'a> Referee<'a> {
             let stop = |x: &[f64]| self.strict.accepts(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
             let start = Start { x: start, multipliers, budget, stop: &stop, part: Some(&part) };
-            let solution = self.solve(contestant, self.task.model, &start, observer);
-            return self.judged(contestant, solution);
+            let solution = self.solve(solver, self.task.model, &start, observer);
+            return self.judged(solver, solution);
         };
         let stop = |z: &[f64]| self.strict.accepts(&self.outward(z));
         let mut translated = |iteration: &Iteration<'_>| {
@@ -77,10 +96,10 @@ impl<'a> Referee<'a> {
         let inward = other.inward(start);
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
         let start = Start { x: &inward, multipliers: None, budget, stop: &stop, part: None };
-        let mut solution = self.solve(contestant, other.model(), &start, &mut translated);
+        let mut solution = self.solve(solver, other.model(), &start, &mut translated);
         solution.multipliers = None;
         solution.x = self.outward(&solution.x);
-        self.judged(contestant, solution)
+        self.judged(solver, solution)
     }
 
     /// x(z), inside the bounds to the last digit.
@@ -93,17 +112,27 @@ impl<'a> Referee<'a> {
     /// Runs a backend on any model with the task's settings.
     fn solve(
         &self,
-        contestant: Contestant<'_>,
+        solver: Solver<'_>,
         model: &dyn Model,
         start: &Start<'_>,
         observer: &mut dyn FnMut(&Iteration<'_>),
     ) -> Solution {
-        if let Some(reason) = contestant.backend.refusal(contestant.algorithm, model) {
-            return refused(contestant.algorithm, start.x, reason);
+        if let Some(reason) = solver.backend.refusal(solver.algorithm, model) {
+            return refused(solver.algorithm, start.x, reason);
         }
+        pool::with_observer(observer, |observer| self.run(solver, model, start, observer))
+    }
+
+    fn run(
+        &self,
+        solver: Solver<'_>,
+        model: &dyn Model,
+        start: &Start<'_>,
+        observer: &mut dyn FnMut(&Iteration<'_>),
+    ) -> Solution {
         let settings = self.task.settings;
         let mut job = Job {
-            algorithm: contestant.algorithm,
+            algorithm: solver.algorithm,
             start: start.x,
             start_multipliers: start.multipliers,
             optimality_tolerance: settings.optimality_tolerance,
@@ -115,20 +144,14 @@ impl<'a> Referee<'a> {
             part_test: start.part,
             observer,
         };
-        contestant.backend.solve(model, &mut job)
+        solver.backend.solve(model, &mut job)
     }
 
     /// Solves a helper model (elastic, boxed) that nobody watches, with a stop test of its own.
-    pub(super) fn solve_aside(
-        &self,
-        contestant: Contestant<'_>,
-        model: &dyn Model,
-        start: &[f64],
-        budget: Budget<'_>,
-    ) -> Solution {
+    pub(super) fn solve_aside(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64], budget: Budget<'_>) -> Solution {
         let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE));
         let stop = |x: &[f64]| own.accepts(x);
-        self.solve(contestant, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
+        self.solve(solver, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
     }
 
     /// Whether a point of a part of the model passes by itself.
@@ -136,28 +159,79 @@ impl<'a> Referee<'a> {
         Certifier::new(part, Class::Nonlinear, strict(self.tolerances, PART_SPARE)).accepts(x)
     }
 
-    fn judged(&self, contestant: Contestant<'_>, mut solution: Solution) -> Answer {
+    fn judged(&self, solver: Solver<'_>, mut solution: Solution) -> Answer {
         self.task.model.complete(&mut solution.x);
-        let judged = self.judge.certify(&solution.x, solution.multipliers.as_deref());
-        let mut remarks = Vec::new();
-        if let Err(error) = &judged {
-            remarks.push(format!("the point cannot be judged: {error}"));
+        let gave_way = solution.termination == Termination::LimitReached && !self.is_at_users_limit(&solution);
+        if gave_way {
+            solution.message = format!("its share of the work ended before it did ({} evaluations)", solution.evaluations);
         }
-        let certificate = judged.ok();
-        let objective = certificate.as_ref().map(|certificate| certificate.objective);
-        Answer { backend: contestant.backend.name(), attempt: 1, solution, objective, certificate, remarks }
+        let attempt = usize::from(solution.termination != Termination::Refused);
+        let mut answer = Answer {
+            backend: solver.backend.name(),
+            solution,
+            objective: None,
+            certificate: None,
+            feasible: false,
+            attempt,
+            gave_way,
+            remarks: Vec::new(),
+        };
+        self.judge_again(&mut answer);
+        answer
+    }
+
+    /// Judges the answer's point anew: whatever moves a point calls this.
+    pub(super) fn judge_again(&self, answer: &mut Answer) {
+        let x = &answer.solution.x;
+        let certificate = match self.judge.certify(x, answer.solution.multipliers.as_deref()) {
+            Ok(certificate) => Some(certificate),
+            Err(error) => {
+                answer.remarks.push(format!("the point cannot be judged: {error}"));
+                None
+            }
+        };
+        answer.objective = match &certificate {
+            Some(certificate) => Some(certificate.objective),
+            None => self.task.model.objective(x).ok().filter(|value| value.is_finite()),
+        };
+        answer.feasible = match &certificate {
+            Some(certificate) => certificate.is_feasible(&self.tolerances),
+            None => answer.objective.is_some() && self.meets_limits(x),
+        };
+        answer.certificate = certificate;
+    }
+
+    /// Whether values alone show that `x` meets every limit: for points without derivatives, and so without the rows' scales.
+    fn meets_limits(&self, x: &[f64]) -> bool {
+        let (meta, accepted) = (self.task.model.meta(), self.tolerances.constraint);
+        let mut rows = vec![0.0; meta.rows()];
+        let meets = |value: f64, lower: f64, upper: f64| {
+            let slack = |limit: f64| if limit.is_finite() { accepted * limit.abs() } else { 0.0 };
+            value >= lower - slack(lower) && value <= upper + slack(upper)
+        };
+        self.task.model.constraints(x, &mut rows).is_ok()
+            && (0..rows.len()).all(|i| meets(rows[i], meta.row_lower[i], meta.row_upper[i]))
+            && (0..x.len()).all(|j| meets(x[j], meta.lower[j], meta.upper[j]))
+    }
+
+    /// Whether a limit of the user's ended the run.
+    fn is_at_users_limit(&self, solution: &Solution) -> bool {
+        let settings = self.task.settings;
+        self.clock.is_over()
+            || solution.evaluations >= settings.max_evaluations
+            || solution.iterations.is_some_and(|iterations| iterations >= settings.max_iterations)
     }
 
     /// Whether an answer meets all rows and bounds.
     pub(super) fn is_feasible(&self, answer: &Answer) -> bool {
-        answer.certificate.as_ref().is_some_and(|certificate| certificate.is_feasible(&self.tolerances))
+        answer.feasible
     }
 
     /// Certified before feasible before anything else; then the lower objective, or the smaller violation.
     pub(super) fn is_better(&self, a: &Answer, b: &Answer) -> bool {
         let rank = |answer: &Answer| match &answer.certificate {
             Some(certificate) if certificate.certified => (0, certificate.objective),
-            Some(certificate) if self.is_feasible(answer) => (1, certificate.objective),
+            _ if answer.feasible => (1, answer.objective.unwrap_or(f64::INFINITY)),
             Some(certificate) => (2, certificate.primal_infeasibility),
             None => (3, 0.0),
         };
@@ -170,7 +244,7 @@ fn strict(tolerances: Tolerances, spare: f64) -> Tolerances {
     Tolerances { optimality: tolerances.optimality * spare, constraint: tolerances.constraint * SPARE.sqrt() }
 }
 
-fn refused(algorithm: &str, start: &[f64], message: String) -> Solution {
+pub(super) fn refused(algorithm: &str, start: &[f64], message: String) -> Solution {
     Solution {
         algorithm: algorithm.to_string(),
         termination: Termination::Refused,

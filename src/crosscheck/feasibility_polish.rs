@@ -2,7 +2,7 @@
 //! a violation within the tolerance may be far below the true minimum.
 
 use super::Answer;
-use super::attempt::Referee;
+use super::session::Session;
 
 /// Steps at the most; where gradients vanish each one takes off only a share of the way.
 const STEPS: usize = 400;
@@ -11,28 +11,26 @@ const WORK: usize = 20_000_000;
 
 /// Projects a feasible answer's point onto its most violated row within the bounds, again and again, until every row is met exactly
 /// (Kaczmarz' method, in the variables' own sizes). Keeps the point only where the violation became less.
-pub(super) fn settle(referee: &Referee<'_>, answer: &mut Answer) {
-    let Some(before) = answer.certificate.as_ref().filter(|certificate| referee.is_feasible(answer) && !certificate.certified)
-    else {
+pub(super) fn polish(session: &Session<'_>, answer: &mut Answer) {
+    let Some(before) = answer.certificate.as_ref().filter(|certificate| answer.feasible && !certificate.certified) else {
         return;
     };
     if before.primal_infeasibility == 0.0 {
         return;
     }
-    let (scales, violation) = (before.variable_scales.clone(), before.primal_infeasibility);
-    let Some(x) = projected(referee, &answer.solution.x, &scales) else { return };
-    let Ok(certificate) = referee.judge.certify(&x, None) else { return };
-    if certificate.primal_infeasibility < violation {
-        answer.objective = Some(certificate.objective);
-        answer.certificate = Some(certificate);
-        answer.solution.x = x;
-        answer.solution.multipliers = None;
-        answer.remarks.push("moved until it meets every limit to the last digit".into());
+    let violation = before.primal_infeasibility;
+    let Some(x) = projected(session, &answer.solution.x, &before.variable_scales) else { return };
+    let mut moved = answer.clone();
+    (moved.solution.x, moved.solution.multipliers) = (x, None);
+    session.judge_again(&mut moved);
+    if moved.certificate.as_ref().is_some_and(|certificate| certificate.primal_infeasibility < violation) {
+        moved.remarks.push("moved until it meets every limit to the last digit".into());
+        *answer = moved;
     }
 }
 
-fn projected(referee: &Referee<'_>, x: &[f64], scales: &[f64]) -> Option<Vec<f64>> {
-    let (model, meta) = (referee.task.model, referee.task.model.meta());
+fn projected(session: &Session<'_>, x: &[f64], scales: &[f64]) -> Option<Vec<f64>> {
+    let (model, meta) = (session.task.model, session.task.model.meta());
     let (mut x, mut rows, mut jacobian) = (x.to_vec(), vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
     for _ in 0..STEPS.min(WORK / (jacobian.len() + 1)) {
         meta.clamp(&mut x);

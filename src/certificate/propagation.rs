@@ -1,0 +1,169 @@
+//! What the linear rows say of the box: bounds tightened row by row until one row cannot be met (feasibility-based bound
+//! tightening). A contradiction found so is a theorem, wherever solvers end.
+
+use crate::model::{Meta, Model};
+
+/// Sweeps over all rows at the most.
+const SWEEPS: usize = 10;
+/// Every limit and bound gives way by so many constraint tolerances of the magnitudes around it, so that no point within
+/// the tolerances is ruled out.
+const EASE: f64 = 4.0;
+
+/// lower ≤ Σ a_j·x_j ≤ upper
+struct Line {
+    entries: Vec<(usize, f64)>,
+    lower: f64,
+    upper: f64,
+}
+
+/// A row that no point of the box meets once the other linear rows have tightened it, by more than the tolerance; `None` where
+/// that is not found.
+pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
+    let meta = model.meta();
+    let lines = lines(model)?;
+    let ease = |bound: f64, sign: f64| bound + sign * EASE * tolerance * bound.abs();
+    let mut lower: Vec<f64> = meta.lower.iter().map(|&bound| ease(bound, -1.0)).collect();
+    let mut upper: Vec<f64> = meta.upper.iter().map(|&bound| ease(bound, 1.0)).collect();
+    for _ in 0..SWEEPS {
+        let mut changed = false;
+        for (i, line) in lines.iter().enumerate() {
+            let Some(line) = line else { continue };
+            match tighten(line, &mut lower, &mut upper, EASE * tolerance) {
+                Tightened::Impossible => return Some(i),
+                Tightened::Yes => changed = true,
+                Tightened::No => {}
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    None
+}
+
+/// The linear rows; a row's constant is taken off its limits. `None` where the model has no value at its start.
+fn lines(model: &dyn Model) -> Option<Vec<Option<Line>>> {
+    let meta = model.meta();
+    if !(0..meta.rows()).any(|i| is_linear(meta, i)) {
+        return None;
+    }
+    let x = &meta.start;
+    let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+    model.constraints(x, &mut rows).ok()?;
+    model.jacobian(x, &mut jacobian).ok()?;
+    let line = |i: usize| {
+        let entries: Vec<(usize, f64)> =
+            meta.jacobian.range(i).map(|at| (meta.jacobian.columns[at] as usize, jacobian[at])).filter(|e| e.1 != 0.0).collect();
+        let terms: Vec<f64> = entries.iter().map(|&(j, a)| a * x[j]).collect();
+        let magnitude = terms.iter().fold(rows[i].abs(), |most: f64, term| most + term.abs());
+        let (constant, error) = (rows[i] - terms.iter().sum::<f64>(), (terms.len() + 4) as f64 * f64::EPSILON * magnitude);
+        Line { entries, lower: meta.row_lower[i] - constant - error, upper: meta.row_upper[i] - constant + error }
+    };
+    Some((0..meta.rows()).map(|i| is_linear(meta, i).then(|| line(i))).collect())
+}
+
+fn is_linear(meta: &Meta, i: usize) -> bool {
+    meta.row_is_linear.get(i).copied().unwrap_or(false)
+}
+
+enum Tightened {
+    Yes,
+    No,
+    Impossible,
+}
+
+/// The finite part of an end of the row's range, the sizes it is summed from, and its open variables.
+#[derive(Default, Clone, Copy)]
+struct End {
+    sum: f64,
+    magnitude: f64,
+    open: usize,
+}
+
+impl End {
+    fn add(&mut self, term: f64) {
+        if term.is_finite() {
+            self.sum += term;
+            self.magnitude += term.abs();
+        } else {
+            self.open += 1;
+        }
+    }
+}
+
+fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64], ease: f64) -> Tightened {
+    let (mut least, mut most) = (End::default(), End::default());
+    for &(j, a) in &line.entries {
+        let (low, high) = range(a, lower[j], upper[j]);
+        least.add(low);
+        most.add(high);
+    }
+    let slack = |end: End, limit: f64| ease * (limit.abs() + end.magnitude);
+    let at_most = line.upper + slack(least, line.upper);
+    let at_least = line.lower - slack(most, line.lower);
+    if (least.open == 0 && least.sum > at_most) || (most.open == 0 && most.sum < at_least) {
+        return Tightened::Impossible;
+    }
+    let mut changed = false;
+    for &(j, a) in &line.entries {
+        let (low, high) = range(a, lower[j], upper[j]);
+        let up = rest(least, low).map(|rest| (at_most - rest) / a).filter(|end| end.is_finite());
+        let down = rest(most, high).map(|rest| (at_least - rest) / a).filter(|end| end.is_finite());
+        let (new_lower, new_upper) = if a > 0.0 { (down, up) } else { (up, down) };
+        // Tiny gains would go on for ever.
+        let worth = |gain: f64, size: f64| gain > 1e-3 * size;
+        if let Some(end) = new_upper.filter(|&end| upper[j] == f64::INFINITY || worth(upper[j] - end, upper[j].abs())) {
+            (upper[j], changed) = (end, true);
+        }
+        if let Some(end) = new_lower.filter(|&end| lower[j] == f64::NEG_INFINITY || worth(end - lower[j], lower[j].abs())) {
+            (lower[j], changed) = (end, true);
+        }
+        if changed {
+            // The sums have changed: the next sweep goes on.
+            return Tightened::Yes;
+        }
+    }
+    Tightened::No
+}
+
+/// The end's sum without this variable's own term, where no other is open.
+fn rest(end: End, own: f64) -> Option<f64> {
+    match (own.is_finite(), end.open) {
+        (true, 0) => Some(end.sum - own),
+        (false, 1) => Some(end.sum),
+        _ => None,
+    }
+}
+
+fn range(a: f64, lower: f64, upper: f64) -> (f64, f64) {
+    if a > 0.0 { (a * lower, a * upper) } else { (a * upper, a * lower) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INF: f64 = f64::INFINITY;
+
+    fn line(entries: &[(usize, f64)], lower: f64, upper: f64) -> Line {
+        Line { entries: entries.to_vec(), lower, upper }
+    }
+
+    #[test]
+    fn a_chain_of_rows_runs_out_of_room() {
+        let lines = [line(&[(0, 1.0), (1, 1.0)], 3e-3, 3e-3), line(&[(0, 1.0)], 3.01e-3, INF)];
+        let (mut lower, mut upper) = (vec![0.0, 0.0], vec![1.0, INF]);
+        assert!(matches!(tighten(&lines[0], &mut lower, &mut upper, 4e-8), Tightened::Yes));
+        assert!(upper[0] <= 3.001e-3, "{upper:?}");
+        assert!(matches!(tighten(&lines[1], &mut lower, &mut upper, 4e-8), Tightened::Impossible));
+    }
+
+    #[test]
+    fn what_is_within_the_tolerance_stands() {
+        let (mut lower, mut upper) = (vec![0.0], vec![1.0]);
+        let row = line(&[(0, 2.0)], 2.0 * (1.0 + 1e-8), INF);
+        assert!(!matches!(tighten(&row, &mut lower, &mut upper, 4e-8), Tightened::Impossible));
+        let open = line(&[(0, 2.0)], 5.0, INF);
+        assert!(!matches!(tighten(&open, &mut [0.0], &mut [INF], 4e-8), Tightened::Impossible));
+    }
+}

@@ -1,0 +1,80 @@
+//! Every backend's first answer. None holds up the others: one that takes long gives way, and goes on afterwards.
+
+use std::time::Duration;
+
+use super::ledger::Ledger;
+use super::restarts;
+use super::{Answer, work};
+
+/// One answer per backend, in the order given; they run in the ledger's order.
+pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
+    let order = ledger.order();
+    let mut found: Vec<Option<Answer>> = vec![None; order.len()];
+    for (place, &k) in order.iter().enumerate() {
+        let share = match share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?)))) {
+            Some(share) => share,
+            None => turn(ledger, place, order.len(), k),
+        };
+        let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
+            true => {
+                ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into())
+            }
+            false => {
+                let multipliers = ledger.session.task.start_multipliers;
+                ledger.run_within(k, ledger.session.task.start, (share.work, share.seconds), multipliers)
+            }
+        };
+        found[k] = Some(answer);
+    }
+    found.into_iter().flatten().collect()
+}
+
+/// A backend's share while nothing is certified.
+fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share {
+    let work = match (place, count) {
+        (_, 1) => f64::INFINITY,
+        (0, _) => work::first_turn(ledger.session.cost(ledger.solvers[k])),
+        _ => work::later_turn(ledger.least_first_work()),
+    };
+    Share { work, seconds: f64::INFINITY }
+}
+
+/// Those who gave way go on. Where nobody has met the rows, the elastic phase may know why: it comes first.
+pub(super) fn go_on(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
+    let gave_way: Vec<usize> =
+        ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
+    let worth_it = answers.len() == gave_way.len() || answers.iter().any(|answer| answer.feasible);
+    for k in gave_way.into_iter().filter(|_| worth_it) {
+        let share = share(ledger, answers.iter().enumerate());
+        if ledger.session.clock.is_over() || share.as_ref().is_some_and(|share| share.is_global(ledger)) {
+            return;
+        }
+        let share = share.unwrap_or(Share { work: f64::INFINITY, seconds: f64::INFINITY });
+        let start = answers[k].solution.x.clone();
+        let next = ledger.run_within(k, &start, (share.work, share.seconds), None);
+        restarts::keep_better(ledger, &mut answers[k], next, "went on after the others");
+    }
+}
+
+/// What one backend may spend.
+struct Share {
+    work: f64,
+    seconds: f64,
+}
+
+impl Share {
+    fn is_global(&self, ledger: &Ledger<'_, '_>) -> bool {
+        ledger.session.task.class.is_global()
+    }
+}
+
+/// What is left to the others beside a certified answer.
+fn share<'a>(ledger: &Ledger<'_, '_>, answers: impl Iterator<Item = (usize, &'a Answer)>) -> Option<Share> {
+    let certified = answers.filter(|(_, answer)| answer.is_certified());
+    let costs = certified.map(|(k, answer)| (work::of(answer, ledger.session.cost(ledger.solvers[k])), answer.solution.seconds));
+    let (proof, seconds) = costs.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))?;
+    Some(match ledger.session.task.class.is_global() {
+        true => Share { work: work::cross_check(proof), seconds: work::cross_check_fence(Duration::from_secs_f64(seconds)) },
+        false => Share { work: work::after_certified(proof), seconds: f64::INFINITY },
+    })
+}

@@ -1,0 +1,105 @@
+//! Shares of work. What a run may cost is counted in evaluations times what one costs the backend, never in seconds: a slow
+//! machine gives the same answer. Deadlines are far behind, for backends whose cost is misjudged.
+
+use std::time::Duration;
+
+use super::Answer;
+
+/// Entries of values and derivatives a slow core works off in a second, expressions and factorisations included.
+const PER_SECOND: f64 = 1e7;
+/// A run that takes so many times what its work should is misjudged, or the machine is busy with fifty others.
+const PATIENCE: f64 = 50.0;
+/// Seconds every run may take.
+const SHORTEST: f64 = 10.0;
+/// So many times as long as a proof took, on the same machine, and so many seconds at least.
+const AFTER_PROOF: (f64, f64) = (10.0, 2.0);
+
+/// What is left to the others once a global minimum is proved: as much again as the proof took, at least 0.2 s worth.
+pub(super) fn cross_check(proof: f64) -> f64 {
+    proof.max(0.2 * PER_SECOND)
+}
+
+/// What is left to the others once a local minimum is certified: they may know a better one.
+pub(super) fn after_certified(work: f64) -> f64 {
+    (2.0 * work).max(5.0 * PER_SECOND)
+}
+
+/// What the cheapest backend may spend before it gives way to the next one: ten seconds' worth, and two thousand evaluations at
+/// least, which end any interior-point run that converges.
+pub(super) fn first_turn(cost: f64) -> f64 {
+    (10.0 * PER_SECOND).max(2000.0 * cost)
+}
+
+/// What the others may spend at first, while nothing is certified: four times what the cheapest has, at least two seconds' worth.
+pub(super) fn later_turn(spent: f64) -> f64 {
+    (4.0 * spent).max(2.0 * PER_SECOND)
+}
+
+/// One run of the probe at the most.
+pub(super) fn probe(first: f64) -> f64 {
+    first.clamp(0.2 * PER_SECOND, 2.0 * PER_SECOND)
+}
+
+/// A further run of a backend: as much again as its first, at least a second's worth and at most ten.
+pub(super) fn further_run(first: f64) -> f64 {
+    first.clamp(PER_SECOND, 10.0 * PER_SECOND)
+}
+
+/// All solves of the elastic phase together: four times the cheapest first run, and a thousand evaluations at least.
+pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
+    (4.0 * first).clamp(0.5 * PER_SECOND, 20.0 * PER_SECOND).max(1000.0 * cost)
+}
+
+/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves.
+pub(super) fn explanation(first: f64, cost: f64) -> f64 {
+    first.clamp(0.5 * PER_SECOND, 5.0 * PER_SECOND).max(1000.0 * cost)
+}
+
+/// Evaluations below which a run is not worth beginning.
+pub(super) const FEWEST_EVALUATIONS: f64 = 20.0;
+
+/// Seconds after which the work allowed must have been done.
+pub(super) fn fence(work: f64) -> f64 {
+    (PATIENCE * work / PER_SECOND).max(SHORTEST)
+}
+
+/// The same where a proof that took so long bounds what may follow: ten times as long, at least two seconds.
+pub(super) fn cross_check_fence(proof: Duration) -> f64 {
+    (AFTER_PROOF.0 * proof.as_secs_f64()).max(AFTER_PROOF.1)
+}
+
+/// What an answer has cost, all its attempts together.
+pub(super) fn of(answer: &Answer, cost: f64) -> f64 {
+    answer.solution.evaluations as f64 * cost
+}
+
+/// An allowance that several solves share.
+#[derive(Debug)]
+pub(super) struct Allowance {
+    whole: f64,
+    left: f64,
+}
+
+/// What one solve may take of its phase's work.
+const SINGLE: f64 = 0.3;
+/// A phase ends when this share of its work is left: nothing ends within less.
+const REST: f64 = 0.01;
+
+impl Allowance {
+    pub(super) fn new(work: f64) -> Self {
+        Allowance { whole: work, left: work }
+    }
+
+    /// What one solve may take.
+    pub(super) fn single(&self) -> f64 {
+        self.left.min(SINGLE * self.whole).max(0.0)
+    }
+
+    pub(super) fn spend(&mut self, work: f64) {
+        self.left -= work;
+    }
+
+    pub(super) fn is_spent(&self) -> bool {
+        self.left <= REST * self.whole
+    }
+}
