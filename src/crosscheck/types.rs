@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::start::MovedStart;
 use crate::backends::{Iteration, Solution};
 use crate::certificate::{Certificate, Scope};
-use crate::model::{Class, Model, Substitution};
+use crate::model::{Class, Model, Own, Substitution};
 use crate::problem::Settings;
 
 /// What is to be solved.
@@ -110,6 +110,16 @@ pub struct Conflict {
     pub relaxations: Vec<(usize, f64)>,
     /// No part of the set conflicts by itself (proved, for linear, geometric and convex problems).
     pub minimal: bool,
+}
+
+impl Conflict {
+    /// Leaves out auxiliary rows and variables: what they say, the user's rows say.
+    pub(super) fn keep_own(&mut self, own: Own) {
+        self.violated_rows.retain(|&(row, _)| row < own.rows);
+        self.rows.retain(|&row| row < own.rows);
+        self.bounds.retain(|&(j, _)| j < own.variables);
+        self.relaxations.retain(|&(row, _)| row < own.rows);
+    }
 }
 
 /// A distinct minimum of the multi-start.

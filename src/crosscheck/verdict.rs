@@ -60,7 +60,8 @@ pub(super) fn diverging(referee: &Referee<'_>, answers: Vec<Answer>, ray: Ray) -
 }
 
 /// The elastic phase proved that no nearby point is feasible.
-pub(super) fn infeasible(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, conflict: Conflict) -> Outcome {
+pub(super) fn infeasible(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, mut conflict: Conflict) -> Outcome {
+    conflict.keep_own(referee.task.model.own());
     let mut outcome = at(referee, answers, x, Status::Infeasible);
     outcome.scope = Scope::of(referee.task.class);
     words::infeasible(referee, &mut outcome, &conflict);

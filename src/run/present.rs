@@ -32,12 +32,6 @@ pub fn present(subject: &Subject, mut outcome: Outcome) -> Outcome {
     if let Some(moved) = &mut outcome.moved_start {
         moved.x.truncate(own.variables);
     }
-    if let Some(conflict) = &mut outcome.conflict {
-        conflict.violated_rows.retain(|&(row, _)| row < own.rows);
-        conflict.rows.retain(|&row| row < own.rows);
-        conflict.bounds.retain(|&(j, _)| j < own.variables);
-        conflict.relaxations.retain(|&(row, _)| row < own.rows);
-    }
     outcome
 }
 
