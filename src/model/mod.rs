@@ -16,7 +16,6 @@ pub mod elastic;
 mod elements;
 pub mod evaluator;
 pub mod logarithmic;
-pub mod pattern;
 pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -26,13 +25,13 @@ pub mod substitution;
 
 use thiserror::Error;
 
+pub use crate::linear_algebra::Pattern;
 pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
-pub use pattern::Pattern;
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
@@ -45,6 +44,9 @@ pub struct Meta {
     pub upper: Vec<f64>,
     /// Starting point, inside the bounds.
     pub start: Vec<f64>,
+    /// The magnitude of each variable that its user gave by a start, 0 where none was given; empty where nothing is known. What a
+    /// program fills in for a start that was left out is no size.
+    pub typical: Vec<f64>,
     /// Lower limits of the rows, −∞ where open. Their number is m. An equality has both limits equal.
     pub row_lower: Vec<f64>,
     /// Upper limits of the rows, +∞ where open.

@@ -146,6 +146,9 @@ pub struct Variables {
     pub upper: Vec<f64>,
     /// Starting values, already inside the bounds.
     pub start: Vec<f64>,
+    /// Magnitudes of the starts that were given, 0 where one was left out; may be shorter than the others where the last ones
+    /// were left out.
+    pub typical: Vec<f64>,
 }
 
 impl Variables {

@@ -196,6 +196,11 @@ fn scattered(rows: &[Affine], jacobian: &Pattern) -> Vec<f64> {
 }
 
 /// Fixes the patterns and tells every element where its derivatives go.
+/// Magnitudes given, 0 for what follows them.
+fn padded(typical: &[f64], n: usize) -> Vec<f64> {
+    typical.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect()
+}
+
 fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
     let (n, m) = (problem.variables.lower.len(), rows.affine.len());
     let mut row_groups = rows.groups.into_list();
@@ -215,6 +220,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         lower: problem.variables.lower.clone(),
         upper: problem.variables.upper.clone(),
         start: problem.variables.start.clone(),
+        typical: padded(&problem.variables.typical, n),
         row_lower: rows.lower,
         row_upper: rows.upper,
         row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),
