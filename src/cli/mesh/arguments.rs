@@ -10,7 +10,7 @@ use ribopt::mesh::ribs;
 use ribopt::mesh::section::Plane;
 
 const CHECK_CODES: &str = "Exit codes:\n  0  a clean quad mesh\n  1  it has defects\n  2  no mesh could be read";
-const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes are left that no rule could fill\n  2  nothing was written, for the reason told";
+const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes or notches are left that no rule could fill\n  2  nothing was written, for the reason told";
 const SMOOTH_CODES: &str =
     "Exit codes:\n  0  done\n  1  done, but faces were turned over\n  2  nothing was written, for the reason told";
 const CODES: &str = "Exit codes:\n  0  done\n  2  nothing was written, for the reason told";
@@ -82,7 +82,7 @@ pub struct Reconstruct {
     /// The new mesh (.obj, .stl or .vtu); what was done goes to the same name with .json
     #[arg(long, short, value_name = "OUT")]
     pub out: PathBuf,
-    /// How far new faces may lie off the original and vertices are snapped; default: a tenth of the mean edge
+    /// How far new faces may lie off the original and vertices may be moved; default: a tenth of the mean edge
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Do not fill notches and holes

@@ -49,7 +49,7 @@ fn reconstruct(arguments: &Reconstruct) -> Result<u8, Failure> {
     let options = reconstruct::Options { tolerance: arguments.tolerance, fill: !arguments.no_fill, snap: !arguments.no_snap };
     let report = commands::reconstruct_file(&arguments.mesh.source(), &arguments.original, options, &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::reconstruct(report, &arguments.out, out))?;
-    Ok(u8::from(report.stage.unfilled_loops > 0))
+    Ok(u8::from(!report.stage.open.is_empty()))
 }
 
 fn smooth(arguments: &Smooth) -> Result<u8, Failure> {

@@ -73,6 +73,10 @@ pub fn reconstruct(report: &Staged<rebuilt::Report>, file: &Path, out: Out) -> W
     )?;
     let [before, after] = stage.euler_characteristic;
     writeln!(out, "Euler characteristic {before} before, {after} after; holes left: {}", stage.unfilled_loops)?;
+    for run in stage.open.iter().take(SHOWN) {
+        let vertices = listing(run.iter().map(u32::to_string), SHOWN);
+        writeln!(out, "left open, though the original goes on beyond the edges of vertices {vertices}: no rule fits there")?;
+    }
     let (most, apart) = (short(stage.largest_move), short(stage.hausdorff.distance));
     writeln!(out, "tolerance {}, longest move {most}, Hausdorff distance {apart}", short(stage.tolerance))?;
     invariants(&report.invariants, out)
