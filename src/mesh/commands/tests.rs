@@ -3,7 +3,7 @@ use crate::mesh::network::read_geometry;
 use crate::mesh::solids::SizedRib;
 
 fn source(path: &Path) -> Source {
-    Source { path: path.into(), weld: None }
+    Source { path: path.into(), ..Source::default() }
 }
 
 #[test]
