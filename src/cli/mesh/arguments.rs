@@ -92,7 +92,7 @@ pub struct Reconstruct {
     /// The new mesh (.obj, .stl or .vtu); what was done goes to the same name with .json
     #[arg(long, short, value_name = "OUT")]
     pub out: PathBuf,
-    /// How far new faces may lie off the original and vertices may be moved; default: a tenth of the mean edge
+    /// How far new faces may lie off the original and vertices may be moved; default: a tenth of the original's mean edge
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Do not fill notches and holes

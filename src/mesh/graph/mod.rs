@@ -204,7 +204,8 @@ impl Flags {
                 None => {
                     let e = ends.len() as u32;
                     number.insert(edge, e);
-                    ends.push(edge);
+                    // As given, so that lines run the way the file has them.
+                    ends.push([a, b]);
                     ribs.push(true);
                     of_rib.push(e);
                 }

@@ -18,6 +18,19 @@ const FLATTEST_OF_HOLE: f64 = 179.0 * std::f64::consts::PI / 180.0;
 /// more than 150° (sin 30° = 1/2) counts as lying over it.
 const CLEAR: f64 = 0.5;
 
+/// Steps along a boundary segment beyond which a reach is so short that nothing is hidden to speak of.
+const MOST_STEPS: f64 = 1e4;
+
+/// The part of a segment within `radius` of a point, roughly: its ends moved to the nearest point's parameter ± the radius.
+fn clip(a: &Vector, b: &Vector, centre: &Vector, radius: f64) -> [Vector; 2] {
+    let (along, length) = (b - a, (b - a).norm());
+    if length <= 2.0 * radius {
+        return [*a, *b];
+    }
+    let t = along.dot(&(centre - a)) / (length * length);
+    [t - radius / length, t + radius / length].map(|t| a + along * t.clamp(0.0, 1.0))
+}
+
 /// What is there: the mesh with all faces added so far.
 pub(super) struct Built {
     faces: Surface,
@@ -29,6 +42,11 @@ impl Built {
         let used = (0..mesh.vertex_count() as u32).filter(|&v| mesh.spokes(v).next().is_some());
         let point = |v: u32| GeomWithData::new(mesh.positions[v as usize].into(), v);
         Built { faces: Surface::of_faces(&mesh.to_polygons()), vertices: RTree::bulk_load(used.map(point).collect()) }
+    }
+
+    /// From the nearest face.
+    pub fn distance(&self, p: &Vector) -> f64 {
+        self.faces.distance(p)
     }
 
     pub fn add_vertex(&mut self, v: u32, position: Vector) {
@@ -79,14 +97,12 @@ impl Candidate {
     /// Whether the original's boundary runs inside the face, farther than `reach` from its rim: the original is open there.
     fn hides_boundary(&self, original: &Original, reach: f64) -> bool {
         let (low, high) = self.bounding_box(reach);
-        let size = (high - low).norm();
         let inside = |p: &Vector| self.distance(p) <= reach && self.rim_distance(p) > reach;
         original.boundary.pieces_in(&low, &high).any(|[a, b, _]| {
-            // Steps of half the reach, at most so many as cross the box.
-            let length = (b - a).norm();
-            let steps = (2.0 * length / reach).ceil().clamp(1.0, (4.0 * size / reach).ceil().max(1.0) * (length / size).ceil().max(1.0));
-            let steps = steps.min(1e4) as u32;
-            (0..=steps).any(|k| inside(&a.lerp(b, f64::from(k) / f64::from(steps))))
+            // Steps of half the reach; a long segment is cut to the part near the face first.
+            let [from, to] = clip(a, b, &((low + high) / 2.0), (high - low).norm() / 2.0);
+            let steps = (2.0 * (to - from).norm() / reach).ceil().clamp(1.0, MOST_STEPS) as u32;
+            (0..=steps).any(|k| inside(&from.lerp(&to, f64::from(k) / f64::from(steps))))
         })
     }
 

@@ -24,8 +24,11 @@ pub(super) fn fill(
     }
     let mut filler = Filler::new(mesh, loops, original, vertices);
     let mut added = Vec::new();
-    while let Some(quad) = filler.step() {
-        added.push(quad);
+    // Loops share no vertices, and what one was refused stays refused when another is filled: one after the other will do.
+    for ring in 0..filler.loops.len() {
+        while let Some(quad) = filler.step(ring) {
+            added.push(quad);
+        }
     }
     if filler.added.is_empty() {
         return Ok(None);
@@ -122,26 +125,25 @@ impl<'a> Filler<'a> {
         })
     }
 
-    /// Adds one quad by the first rule that can.
-    fn step(&mut self) -> Option<Action> {
-        self.try_loops(Self::loop_of_four, Rule::LoopOfFour)
-            .or_else(|| self.try_loops(Self::two_concave, Rule::TwoConcave))
-            .or_else(|| self.try_loops(Self::one_concave, Rule::OneConcave))
+    /// Adds one quad to a loop by the first rule that can.
+    fn step(&mut self, ring: usize) -> Option<Action> {
+        self.try_loop(ring, Self::loop_of_four, Rule::LoopOfFour)
+            .or_else(|| self.try_loop(ring, Self::two_concave, Rule::TwoConcave))
+            .or_else(|| self.try_loop(ring, Self::one_concave, Rule::OneConcave))
     }
 
-    fn try_loops(&mut self, rule: fn(&mut Self, usize, usize) -> Option<[u32; 4]>, name: Rule) -> Option<Action> {
-        for ring in 0..self.loops.len() {
-            for at in 0..self.loops[ring].len() {
-                if let Some(quad) = rule(self, ring, at) {
-                    self.count(&quad);
-                    self.built.add_face(quad.map(|v| self.positions[v as usize]));
-                    self.added.push(quad);
-                    let face = (self.first_face + self.added.len()) as u32;
-                    return Some(Action::Filled { rule: name, face, vertices: quad.map(|v| v + 1) });
-                }
-            }
-        }
-        None
+    fn try_loop(
+        &mut self,
+        ring: usize,
+        rule: fn(&mut Self, usize, usize) -> Option<[u32; 4]>,
+        name: Rule,
+    ) -> Option<Action> {
+        let quad = (0..self.loops[ring].len()).find_map(|at| rule(self, ring, at))?;
+        self.count(&quad);
+        self.built.add_face(quad.map(|v| self.positions[v as usize]));
+        self.added.push(quad);
+        let face = (self.first_face + self.added.len()) as u32;
+        Some(Action::Filled { rule: name, face, vertices: quad.map(|v| v + 1) })
     }
 
     /// The loop's vertex `by` places on from `at`, around the end.
@@ -212,6 +214,10 @@ impl<'a> Filler<'a> {
         let places =
             [within(known, reach), within(self.original.surface.nearest(&guess), reach), within(known, 0.5 * shorter)];
         let fits = |&new: &Vector| {
+            // Elsewhere it would come to lie on an edge that is there.
+            if self.built.distance(&new) < 0.5 * reach {
+                return false;
+            }
             let points = [pc, pv, pa, new];
             Candidate { vertices: quad, points, closes: false }.is_accepted(self.original, &self.built)
         };

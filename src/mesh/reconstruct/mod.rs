@@ -11,6 +11,7 @@ mod snap;
 
 use serde::Serialize;
 
+use super::edge_list::{by_edge, edge_uses};
 use super::hausdorff::{Hausdorff, hausdorff};
 use super::{PolygonMesh, QuadMesh, Vector, boundary, quality};
 use original::Original;
@@ -19,7 +20,8 @@ use original::Original;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// How far a new face may lie off the original surface, and how far a vertex may be moved. `None`: a tenth of the mean
-    /// edge.
+    /// edge of the original, or of the mesh where the original's is less than half or more than twice as long. The original's
+    /// does not change, so that a second run has the same.
     pub tolerance: Option<f64>,
     /// Fill notches and holes.
     pub fill: bool,
@@ -119,7 +121,7 @@ const ROUNDS: usize = 50;
 /// # Errors
 /// An odd hole; a tolerance that is none; an original without faces.
 pub fn reconstruct(mesh: QuadMesh, original: &PolygonMesh, options: Options) -> Result<(QuadMesh, Report), ReconstructError> {
-    let tolerance = options.tolerance.unwrap_or_else(|| 0.1 * quality::edge_lengths(&mesh).mean);
+    let tolerance = options.tolerance.unwrap_or_else(|| default_tolerance(&mesh, original));
     if tolerance.is_nan() || tolerance <= 0.0 || tolerance.is_infinite() {
         return Err(ReconstructError::Tolerance(tolerance));
     }
@@ -165,6 +167,14 @@ pub fn reconstruct(mesh: QuadMesh, original: &PolygonMesh, options: Options) -> 
         actions,
     };
     Ok((mesh, report))
+}
+
+fn default_tolerance(mesh: &QuadMesh, original: &PolygonMesh) -> f64 {
+    let uses = edge_uses(original);
+    let length = |[a, b]: [u32; 2]| (original.vertices[b as usize] - original.vertices[a as usize]).norm();
+    let theirs = quality::Range::of(by_edge(&uses).map(|uses| length(uses[0].edge))).mean;
+    let own = quality::edge_lengths(mesh).mean;
+    0.1 * if (0.5 * own..=2.0 * own).contains(&theirs) { theirs } else { own }
 }
 
 fn largest_move(began: &[Vector], ended: &[Vector]) -> f64 {
