@@ -153,9 +153,8 @@ fn a_ring_sags_as_each_of_its_halves() {
     }
     assert_eq!(sums.len(), 10);
     // The octagon is 6.123 around, its half 3.061; the uprights are 2.
-    let [lengths, rings]: [Vec<[f64; 2]>; 2] = [2.0, 8.0 * 0.765_366_865 / 2.0].map(|span: f64| {
-        sums.values().copied().filter(|[own, _]| (own / span - 1.0).abs() < 1e-6).collect()
-    });
+    let [lengths, rings]: [Vec<[f64; 2]>; 2] = [2.0, 8.0 * 0.765_366_865 / 2.0]
+        .map(|span: f64| sums.values().copied().filter(|[own, _]| (own / span - 1.0).abs() < 1e-6).collect());
     assert_eq!((lengths.len(), rings.len()), (8, 2));
     for [span, sag] in rings {
         assert!(near(sag, 5.0 * span.powi(4) / 384.0), "{sag}");
@@ -236,7 +235,9 @@ fn networks_go_through() {
 fn curves_are_divided_and_end_where_they_should() {
     let folder = tempfile::tempdir().unwrap();
     let half = std::f64::consts::FRAC_1_SQRT_2;
-    let arc = format!("v 1 0 0\nv 1 1 0 {half}\nv 0 1 0\nv 0 0 0\ncstype rat bspline\ndeg 2\ncurv 0 1 1 2 3\nparm u 0 0 0 1 1 1\nend\nl 3 4\n");
+    let arc = format!(
+        "v 1 0 0\nv 1 1 0 {half}\nv 0 1 0\nv 0 0 0\ncstype rat bspline\ndeg 2\ncurv 0 1 1 2 3\nparm u 0 0 0 1 1 1\nend\nl 3 4\n"
+    );
     fs::write(folder.path().join("arc.obj"), arc).unwrap();
     let found = report(folder.path(), "mesh trace arc.obj -o l.csv", 0);
     assert_eq!((number(&found, "/lines"), number(&found, "/edges"), number(&found, "/ends")), (2.0, 9.0, 3.0));
@@ -270,7 +271,10 @@ fn a_hanging_node_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let found = report(folder.path(), "mesh check DATA/hanging-node.obj", 1);
     assert_eq!(found["defects"][0]["kind"], "hanging-node");
-    assert_eq!((&found["defects"][0]["vertices"], &found["defects"][0]["faces"]), (&serde_json::json!([5, 2, 3]), &serde_json::json!([1])));
+    assert_eq!(
+        (&found["defects"][0]["vertices"], &found["defects"][0]["faces"]),
+        (&serde_json::json!([5, 2, 3]), &serde_json::json!([1]))
+    );
     assert_eq!(number(&found, "/invariants/faces"), 3.0);
     let refused = err(&ribopt(folder.path(), "mesh ribs DATA/hanging-node.obj -o r"));
     assert!(refused.contains("vertex 5 hangs on the edge 2 3 of face 1"), "{refused}");

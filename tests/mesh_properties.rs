@@ -41,8 +41,12 @@ fn cells() -> impl Strategy<Value = Vec<usize>> {
 }
 
 fn case() -> impl Strategy<Value = Case> {
-    (0usize..6, prop::sample::select(vec![1.0, 1e3, 1e-3]), cells(), cells())
-        .prop_map(|(surface, scale, holes, missing)| Case { surface, scale, holes, missing })
+    (0usize..6, prop::sample::select(vec![1.0, 1e3, 1e-3]), cells(), cells()).prop_map(|(surface, scale, holes, missing)| Case {
+        surface,
+        scale,
+        holes,
+        missing,
+    })
 }
 
 impl Case {
@@ -71,7 +75,13 @@ fn same(a: &QuadMesh, b: &QuadMesh) -> bool {
 }
 
 /// No vertex goes farther than the tolerance; what comes out is a clean mesh; again changes nothing.
-fn keeps_its_promises(began: &QuadMesh, ended: &QuadMesh, original: &PolygonMesh, report: &Report, options: Options) -> Result<(), TestCaseError> {
+fn keeps_its_promises(
+    began: &QuadMesh,
+    ended: &QuadMesh,
+    original: &PolygonMesh,
+    report: &Report,
+    options: Options,
+) -> Result<(), TestCaseError> {
     for (a, b) in began.positions.iter().zip(&ended.positions) {
         prop_assert!((a - b).norm() <= report.tolerance * (1.0 + 1e-12), "moved {} of {}", (a - b).norm(), report.tolerance);
         let stays = original.vertices.contains(a);

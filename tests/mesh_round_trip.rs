@@ -184,7 +184,8 @@ fn read_glb(path: &Path, ribs: usize, volume: f64) {
         let indices: Vec<usize> = reader.read_indices().unwrap().into_u32().map(|v| v as usize).collect();
         for triangle in indices.chunks(3) {
             let [a, b, c] = [points[triangle[0]], points[triangle[1]], points[triangle[2]]];
-            sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6.0;
+            sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                / 6.0;
         }
     }
     // Warped sides are bilinear in the model, and two triangles here.

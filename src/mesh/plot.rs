@@ -74,7 +74,9 @@ const ALIKE: f64 = 0.05;
 impl Shown {
     fn of(strokes: &[Stroke]) -> Shown {
         let range = |values: &mut dyn Iterator<Item = f64>| {
-            values.filter(|value| value.is_finite()).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+            values
+                .filter(|value| value.is_finite())
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
         };
         let [least, most] = range(&mut strokes.iter().filter_map(|stroke| stroke.utilisation));
         // Above 1 something is wrong, and red must show it.

@@ -161,7 +161,8 @@ pub fn report(support: &dyn Support, lines: &[Line]) -> TraceReport {
 
 fn ends(lines: &[Line]) -> usize {
     let open = lines.iter().filter(|line| !line.closed);
-    let mut ends: Vec<u32> = open.flat_map(|line| line.vertices.first().into_iter().chain(line.vertices.last())).copied().collect();
+    let mut ends: Vec<u32> =
+        open.flat_map(|line| line.vertices.first().into_iter().chain(line.vertices.last())).copied().collect();
     ends.sort_unstable();
     ends.dedup();
     ends.len()

@@ -10,7 +10,8 @@ use ribopt::mesh::graph::Rule;
 use ribopt::mesh::ribs;
 use ribopt::mesh::section::Plane;
 
-const CHECK_CODES: &str = "Exit codes:\n  0  a clean quad mesh, polygon mesh or network of lines\n  1  it has defects\n  2  no mesh could be read";
+const CHECK_CODES: &str =
+    "Exit codes:\n  0  a clean quad mesh, polygon mesh or network of lines\n  1  it has defects\n  2  no mesh could be read";
 const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes or notches are left that no rule could fill\n  2  nothing was written, for the reason told";
 const SMOOTH_CODES: &str =
     "Exit codes:\n  0  done\n  1  done, but faces were turned over\n  2  nothing was written, for the reason told";

@@ -104,7 +104,8 @@ fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
         title: arguments.title.clone().unwrap_or(defaults.title.clone()),
         ..with_limits(defaults, &arguments.limits)
     };
-    let report = commands::ribs_folder(&lines_of(&arguments.mesh, &arguments.joined), arguments.segments, &options, &arguments.out)?;
+    let report =
+        commands::ribs_folder(&lines_of(&arguments.mesh, &arguments.joined), arguments.segments, &options, &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::ribs(report, &arguments.out, out))?;
     Ok(0)
 }

@@ -68,8 +68,7 @@ pub fn trace_file(source: &Source, out: &Path) -> Outcome<trace::TraceReport> {
             let place = |v: &u32| positions[*v as usize];
             let edges = |(k, line): (usize, &Line)| {
                 let name = tables::line_name(k, line);
-                let ends: Vec<[Vector; 2]> =
-                    line.vertices.windows(2).map(|pair| [place(&pair[0]), place(&pair[1])]).collect();
+                let ends: Vec<[Vector; 2]> = line.vertices.windows(2).map(|pair| [place(&pair[0]), place(&pair[1])]).collect();
                 ends.into_iter().map(move |ends| DxfLine { layer: name.clone(), colour: 7, ends, data: Vec::new() })
             };
             formats::write_dxf(&mut file, lines.iter().enumerate().flat_map(edges))

@@ -78,7 +78,13 @@ fn stroke(rib: &SizedRib) -> Stroke {
     };
     let heights = [height(0), height(1)];
     let label = match rib.utilisation {
-        Some(u) => format!("{}: heights {:.4}, {:.4}, area {:.4}, utilisation {u:.3}", rib.geometry.name, heights[0], heights[1], rib.mean_area()),
+        Some(u) => format!(
+            "{}: heights {:.4}, {:.4}, area {:.4}, utilisation {u:.3}",
+            rib.geometry.name,
+            heights[0],
+            heights[1],
+            rib.mean_area()
+        ),
         None => format!("{}: heights {:.4}, {:.4}, area {:.4}", rib.geometry.name, heights[0], heights[1], rib.mean_area()),
     };
     Stroke { ends: rib.geometry.ends, heights, area: rib.mean_area(), utilisation: rib.utilisation, label }

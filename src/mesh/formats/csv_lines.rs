@@ -7,11 +7,8 @@ use super::{FormatError, point};
 use crate::mesh::{PolygonMesh, Vector};
 
 /// Names of the columns of a segment's ends.
-const ENDS: [[&str; 6]; 3] = [
-    ["x0", "y0", "z0", "x1", "y1", "z1"],
-    ["x1", "y1", "z1", "x2", "y2", "z2"],
-    ["xa", "ya", "za", "xb", "yb", "zb"],
-];
+const ENDS: [[&str; 6]; 3] =
+    [["x0", "y0", "z0", "x1", "y1", "z1"], ["x1", "y1", "z1", "x2", "y2", "z2"], ["xa", "ya", "za", "xb", "yb", "zb"]];
 
 /// Names of the column that tells polylines apart.
 const LINE: [&str; 5] = ["line", "polyline", "curve", "name", "id"];

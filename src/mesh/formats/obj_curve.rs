@@ -55,16 +55,15 @@ impl Curve {
 
     /// The vertices of the polyline, new ones appended to `vertices`; `None` for a kind that is not read. A curve of degree 1
     /// runs over its control points; others are divided, and end in their first and last control point where they meet them.
-    pub fn polyline(
-        &self,
-        vertices: &mut Vec<Vector>,
-        weight: impl Fn(u32) -> f64,
-    ) -> Result<Option<Vec<u32>>, String> {
+    pub fn polyline(&self, vertices: &mut Vec<Vector>, weight: impl Fn(u32) -> f64) -> Result<Option<Vec<u32>>, String> {
         if self.controls.len() < 2 {
             return Err("a curve needs at least two control points".into());
         }
         if self.kind == Kind::Other {
             return Ok(None);
+        }
+        if self.degree >= self.controls.len() {
+            return Err(format!("a curve of degree {} needs more than {} control points", self.degree, self.controls.len()));
         }
         if self.degree <= 1 {
             return Ok(Some(self.controls.clone()));

@@ -160,7 +160,8 @@ fn note_close_points(mesh: &PolygonMesh, notes: &mut Vec<String>) {
     used.sort_unstable();
     used.dedup();
     let point = |&v: &u32| rstar::primitives::GeomWithData::new(mesh.vertices[v as usize].into(), v);
-    let tree: rstar::RTree<rstar::primitives::GeomWithData<[f64; 3], u32>> = rstar::RTree::bulk_load(used.iter().map(point).collect());
+    let tree: rstar::RTree<rstar::primitives::GeomWithData<[f64; 3], u32>> =
+        rstar::RTree::bulk_load(used.iter().map(point).collect());
     let reach = CLOSE * diagonal(&mesh.vertices);
     let near = |v: &u32| {
         let around = tree.locate_within_distance(mesh.vertices[*v as usize].into(), reach * reach);

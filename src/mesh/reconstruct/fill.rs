@@ -22,6 +22,14 @@ pub(super) fn fill(
     if let Some(odd) = loops.iter().find(|ring| ring.len() % 2 == 1 && is_hole(ring)) {
         return Err(ReconstructError::OddLoop(odd.clone()));
     }
+    let goes_on = |ring: &Vec<u32>, k: usize| {
+        let [a, b] = [k, k + 1].map(|k| mesh.positions[ring[k % ring.len()] as usize]);
+        !original.ends_along(&a, &b)
+    };
+    // Every rule needs two edges in a row that a face may be attached to.
+    if !loops.iter().any(|ring| (0..ring.len()).any(|k| goes_on(ring, k) && goes_on(ring, k + 1))) {
+        return Ok(None);
+    }
     let mut filler = Filler::new(mesh, loops, original, vertices);
     let mut added = Vec::new();
     // Loops share no vertices, and what one was refused stays refused when another is filled: one after the other will do.
@@ -55,9 +63,7 @@ pub(super) fn corners(original: &PolygonMesh) -> Corners {
     let mut used = vec![false; original.vertices.len()];
     original.faces().flatten().for_each(|&v| used[v as usize] = true);
     let chosen = (0..original.vertices.len()).filter(|&v| used[v]);
-    Corners::bulk_load(
-        chosen.map(|v| rstar::primitives::GeomWithData::new(original.vertices[v].into(), v as u32)).collect(),
-    )
+    Corners::bulk_load(chosen.map(|v| rstar::primitives::GeomWithData::new(original.vertices[v].into(), v as u32)).collect())
 }
 
 struct Filler<'a> {
@@ -132,12 +138,7 @@ impl<'a> Filler<'a> {
             .or_else(|| self.try_loop(ring, Self::one_concave, Rule::OneConcave))
     }
 
-    fn try_loop(
-        &mut self,
-        ring: usize,
-        rule: fn(&mut Self, usize, usize) -> Option<[u32; 4]>,
-        name: Rule,
-    ) -> Option<Action> {
+    fn try_loop(&mut self, ring: usize, rule: fn(&mut Self, usize, usize) -> Option<[u32; 4]>, name: Rule) -> Option<Action> {
         let quad = (0..self.loops[ring].len()).find_map(|at| rule(self, ring, at))?;
         self.count(&quad);
         self.built.add_face(quad.map(|v| self.positions[v as usize]));
@@ -211,8 +212,7 @@ impl<'a> Filler<'a> {
         let reach = self.original.reach(shorter);
         let known = self.vertices.nearest_neighbor(guess.into()).map(|known| Vector::from(*known.geom()));
         let within = |point: Option<Vector>, by: f64| point.filter(|point| (point - guess).norm() <= by);
-        let places =
-            [within(known, reach), within(self.original.surface.nearest(&guess), reach), within(known, 0.5 * shorter)];
+        let places = [within(known, reach), within(self.original.surface.nearest(&guess), reach), within(known, 0.5 * shorter)];
         let fits = |&new: &Vector| {
             // Elsewhere it would come to lie on an edge that is there.
             if self.built.distance(&new) < 0.5 * reach {
@@ -231,9 +231,8 @@ impl<'a> Filler<'a> {
             return None;
         }
         let candidate = Candidate { vertices: quad, points: quad.map(|v| self.positions[v as usize]), closes };
-        let accepted = !self.faces.contains(&sorted(&quad))
-            && self.may_attach(chain)
-            && candidate.is_accepted(self.original, &self.built);
+        let accepted =
+            !self.faces.contains(&sorted(&quad)) && self.may_attach(chain) && candidate.is_accepted(self.original, &self.built);
         if !accepted {
             self.rejected.insert(quad);
         }

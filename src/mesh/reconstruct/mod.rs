@@ -185,8 +185,7 @@ fn largest_move(began: &[Vector], ended: &[Vector]) -> f64 {
 fn open_edges(mesh: &QuadMesh, original: &Original) -> (usize, Vec<Vec<u32>>) {
     let (mut holes, mut runs) = (0, Vec::new());
     for ring in boundary::loops(mesh) {
-        let open: Vec<bool> =
-            ring.iter().map(|&v| mesh.spokes(v).next().is_some_and(|h| original.is_open(mesh, h))).collect();
+        let open: Vec<bool> = ring.iter().map(|&v| mesh.spokes(v).next().is_some_and(|h| original.is_open(mesh, h))).collect();
         let Some(closed) = open.iter().position(|open| !open) else {
             holes += 1;
             runs.push(ring.iter().chain(ring.first()).map(|v| v + 1).collect());

@@ -65,8 +65,7 @@ impl<'a> Snapper<'a> {
     pub fn snap(&self, mesh: &mut QuadMesh, began: &[Vector], actions: &mut Vec<Action>) -> bool {
         let used = |v: usize| mesh.spokes(v as u32).next().is_some();
         let target = |v: usize| self.target(&mesh.positions[v], self.class_of(mesh, v as u32));
-        let mut targets: Vec<Option<Target>> =
-            (0..mesh.vertex_count()).map(|v| if used(v) { target(v) } else { None }).collect();
+        let mut targets: Vec<Option<Target>> = (0..mesh.vertex_count()).map(|v| if used(v) { target(v) } else { None }).collect();
         self.settle_conflicts(mesh, &mut targets);
         for (target, began) in targets.iter_mut().zip(began) {
             let stays = |t: &Target| t.distance <= self.tiny || (t.position - began).norm() > self.original.tolerance;

@@ -28,7 +28,9 @@ pub(super) fn find(network: &Network, options: &Options, bounds: &[Bounds]) -> V
     }
     if !found.is_empty() {
         let unit = options.unit.map_or("metres, which nobody said", Unit::name);
-        found.push(format!("bounds and loads are in {unit}; is the mesh? --unit mm, cm, m or in says so for all three, --bounds sets others"));
+        found.push(format!(
+            "bounds and loads are in {unit}; is the mesh? --unit mm, cm, m or in says so for all three, --bounds sets others"
+        ));
     }
     found
 }
