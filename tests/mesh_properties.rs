@@ -94,7 +94,7 @@ fn keeps_its_promises(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 128, ..ProptestConfig::default() })]
 
     /// A mesh held against itself stays as it is, whatever holes it has.
     #[test]
@@ -124,10 +124,16 @@ proptest! {
 
     /// The same with vertices off the original.
     #[test]
-    fn noisy_meshes_keep_the_promises_too(case in case(), noise in prop::collection::vec(-0.05f64..0.05, 900), tolerance in 0.02f64..0.6) {
+    fn noisy_meshes_keep_the_promises_too(case in case(), seed in any::<u32>(), tolerance in 0.02f64..0.6) {
         let Some((mut mesh, original)) = case.pair() else { return Ok(()) };
-        for (k, p) in mesh.positions.iter_mut().enumerate() {
-            *p += Vector::new(noise[3 * k % 900], noise[(3 * k + 1) % 900], noise[(3 * k + 2) % 900]) * case.scale;
+        let mut state = u64::from(seed);
+        let mut noise = || {
+            // Knuth's MMIX generator; its upper bits as a number in ±0.05.
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 40) as f64 / f64::from(1u32 << 24) - 0.5) * 0.1
+        };
+        for p in &mut mesh.positions {
+            *p += Vector::new(noise(), noise(), noise()) * case.scale;
         }
         let Ok(mesh) = QuadMesh::new(mesh.to_polygons()) else { return Ok(()) };
         let options = Options { tolerance: Some(tolerance * case.scale), ..Options::default() };

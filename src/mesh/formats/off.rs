@@ -70,8 +70,7 @@ pub fn read_off(source: impl Read) -> Result<PolygonMesh, FormatError> {
     let mut tokens = Tokens::new(&text);
     let columns = header(&mut tokens)?;
     let (vertices, faces) = (tokens.count("the number of vertices")?, tokens.count("the number of faces")?);
-    tokens.count("the number of edges").ok();
-    tokens.finish_line();
+    tokens.count("the number of edges")?;
     let mut mesh = PolygonMesh::default();
     read_points(&mut tokens, columns, vertices, &mut mesh)?;
     read_faces(&mut tokens, faces, &mut mesh)?;

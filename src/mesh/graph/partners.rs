@@ -10,9 +10,9 @@ const STRAIGHTEST: f64 = std::f64::consts::FRAC_PI_4 + 1e-6;
 /// Where only two edges meet there is nothing to choose; the line ends at a corner (60°, as for feature curves).
 const CORNER: f64 = std::f64::consts::FRAC_PI_3 + 1e-6;
 
-/// The next straightest continuation must turn by at least so many times as much: at an inner vertex of five triangles both
-/// candidates turn alike (36°), and the line ends.
-const CLEARLY: f64 = 2.0;
+/// The next straightest continuation must turn by at least so many times as much. At an inner vertex of five triangles both
+/// candidates turn alike (36°), and the line ends; at the corner of an octagon (45°) an upright (90°) is clearly another.
+const CLEARLY: f64 = 1.5;
 
 /// Lines end where more edges meet than this; spread evenly, so many are 6° apart and hardly one goes on clearly.
 const HUB: usize = 64;

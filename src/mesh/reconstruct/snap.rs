@@ -38,6 +38,22 @@ enum Class {
     Corner,
 }
 
+/// Where a vertex lies in its mesh, which no move changes.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Inside,
+    /// On the boundary; a corner by its valence.
+    Rim {
+        corner: bool,
+    },
+}
+
+impl Place {
+    fn of(mesh: &QuadMesh, v: u32) -> Place {
+        if mesh.is_boundary(v) { Place::Rim { corner: mesh.edges_at(v).count() != 3 } } else { Place::Inside }
+    }
+}
+
 /// Where a vertex wants to go.
 #[derive(Clone, Copy)]
 struct Target {
@@ -64,7 +80,7 @@ impl<'a> Snapper<'a> {
     /// Moves vertices, says what it did and returns whether any moved. `began` is where the vertices were at first.
     pub fn snap(&self, mesh: &mut QuadMesh, began: &[Vector], actions: &mut Vec<Action>) -> bool {
         let used = |v: usize| mesh.spokes(v as u32).next().is_some();
-        let target = |v: usize| self.target(&mesh.positions[v], self.class_of(mesh, v as u32));
+        let target = |v: usize| self.target(&mesh.positions[v], Place::of(mesh, v as u32));
         let mut targets: Vec<Option<Target>> = (0..mesh.vertex_count()).map(|v| if used(v) { target(v) } else { None }).collect();
         self.settle_conflicts(mesh, &mut targets);
         for (target, began) in targets.iter_mut().zip(began) {
@@ -97,13 +113,18 @@ impl<'a> Snapper<'a> {
     }
 
     /// A vertex of the mesh's boundary counts as one only where the original's boundary is in reach; elsewhere the mesh is
-    /// merely torn. A corner is told by its valence, which no move changes.
-    fn class_of(&self, mesh: &QuadMesh, v: u32) -> Class {
-        let in_reach = || self.original.boundary.distance(&mesh.positions[v as usize]) <= self.original.tolerance;
-        match mesh.is_boundary(v) && in_reach() {
-            false => Class::Interior,
-            true if mesh.edges_at(v).count() == 3 => Class::Boundary,
-            true => Class::Corner,
+    /// merely torn.
+    fn class_at(&self, p: &Vector, place: Place) -> Class {
+        let in_reach = || self.original.boundary.distance(p) <= self.original.tolerance;
+        match place {
+            Place::Rim { corner } if in_reach() => {
+                if corner {
+                    Class::Corner
+                } else {
+                    Class::Boundary
+                }
+            }
+            _ => Class::Interior,
         }
     }
 
@@ -123,27 +144,34 @@ impl<'a> Snapper<'a> {
         found.map(|near| near.0)
     }
 
-    fn target(&self, p: &Vector, class: Class) -> Option<Target> {
+    fn target(&self, p: &Vector, place: Place) -> Option<Target> {
         if let Some((v, distance)) = self.nearest(&self.all, p)
             && distance <= self.tiny
         {
             return Some(Target { position: *p, original: Some(v), distance: 0.0 });
         }
-        match self.vertex(p, class) {
+        match self.vertex(p, self.class_at(p, place)) {
             Some(v) => Some(Target { position: self.at(v), original: Some(v), distance: (self.at(v) - p).norm() }),
-            None => self.on_surface(p, class, None),
+            None => self.on_surface(p, place, None),
         }
     }
 
-    /// The nearest point of the surface (of the boundary, for its vertices), unless an original vertex other than `lost` would be seen from there.
-    fn on_surface(&self, p: &Vector, class: Class, lost: Option<u32>) -> Option<Target> {
-        let surface = if class == Class::Interior { &self.original.surface } else { &self.original.boundary };
-        let position = surface.nearest(p)?;
+    /// The nearest point of the surface (of the boundary, for its vertices), if from there nothing else would be chosen: the same
+    /// point again, and no original vertex but `lost`.
+    fn on_surface(&self, p: &Vector, place: Place, lost: Option<u32>) -> Option<Target> {
+        let position = self.projected(p, self.class_at(p, place))?;
         let distance = (position - p).norm();
         let alone = self.nearest(&self.all, &position).is_none_or(|near| near.1 > self.tiny);
-        let settled = self.vertex(&position, class).is_none_or(|seen| Some(seen) == lost);
+        let class = self.class_at(&position, place);
+        let again = self.projected(&position, class).is_some_and(|again| (again - position).norm() <= self.tiny);
+        let settled = again && self.vertex(&position, class).is_none_or(|seen| Some(seen) == lost);
         let target = Target { position, original: None, distance };
         (distance <= self.original.tolerance && alone && settled).then_some(target)
+    }
+
+    fn projected(&self, p: &Vector, class: Class) -> Option<Vector> {
+        let surface = if class == Class::Interior { &self.original.surface } else { &self.original.boundary };
+        surface.nearest(p)
     }
 
     fn at(&self, v: u32) -> Vector {
@@ -164,7 +192,7 @@ impl<'a> Snapper<'a> {
         for v in 0..targets.len() {
             let Some(original) = targets[v].and_then(|target| target.original) else { continue };
             if winner[&original].1 != v {
-                targets[v] = self.on_surface(&mesh.positions[v], self.class_of(mesh, v as u32), Some(original));
+                targets[v] = self.on_surface(&mesh.positions[v], Place::of(mesh, v as u32), Some(original));
             }
         }
     }
