@@ -42,7 +42,8 @@ pub fn invariants(numbers: &Invariants, out: Out) -> Words {
     writeln!(out, "{vertices} vertices, {edges} edges ({rib_edges} with ribs), {faces} faces, {components} connected")?;
     if numbers.quads < *faces {
         let Invariants { triangles, quads, larger, .. } = numbers;
-        writeln!(out, "{triangles} triangles, {quads} quads, {larger} larger faces; lines end where they break the grid")?;
+        let ends = if *quads > 0 { "; lines end where they break the grid" } else { "" };
+        writeln!(out, "{triangles} triangles, {quads} quads, {larger} larger faces{ends}")?;
     }
     if *faces == 0 {
         writeln!(out, "lines without a surface")?;
