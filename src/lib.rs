@@ -30,6 +30,7 @@ pub mod math;
 pub mod mesh;
 pub mod model;
 pub mod problem;
+pub mod recession;
 pub mod report;
 pub mod ribs;
 pub mod run;

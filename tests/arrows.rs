@@ -11,6 +11,7 @@ const FLOORS: &[&[&str]] = &[
     &["input", "report", "log"],
     &["crosscheck"],
     &["backends", "certificate"],
+    &["recession"],
     &["model"],
     &["problem"],
     &["ribs", "mesh"],

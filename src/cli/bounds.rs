@@ -14,7 +14,7 @@ pub fn run(arguments: &Bounds) -> Result<u8, Failure> {
     output::tell(&subject.warnings);
     let choices = choice::choose(&[], None, &subject.settings)?;
     let test = bounds(&subject, &choices, Some(interrupt::flag()));
-    let (about, rows) = (&subject.about, subject.model().meta().rows());
+    let (about, rows) = (&subject.about, subject.shown().meta().rows());
     output::print(|out| {
         writeln!(out, "{} ({}), only bounds remain ({} left out)", about.title, about.file, report::text::count(rows, "row"))?;
         writeln!(out, "{}: {}\n", test.outcome.status.as_str(), test.outcome.message)?;

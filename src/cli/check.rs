@@ -65,7 +65,7 @@ struct Derivatives {
 
 impl<'a> Found<'a> {
     fn of(subject: &'a Subject, check: Option<&DerivativeCheck>) -> Self {
-        let (about, meta) = (&subject.about, subject.model().meta());
+        let (about, meta) = (&subject.about, subject.shown().meta());
         Found {
             file: &about.file,
             title: &about.title,
@@ -80,7 +80,7 @@ impl<'a> Found<'a> {
 }
 
 fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
-    let (about, meta) = (&subject.about, subject.model().meta());
+    let (about, meta) = (&subject.about, subject.shown().meta());
     let equalities = (0..meta.rows()).filter(|&i| meta.row_lower[i] == meta.row_upper[i]).count();
     let linear = meta.row_is_linear.iter().filter(|&&linear| linear).count();
     let fixed = (0..meta.variables()).filter(|&j| meta.lower[j] == meta.upper[j]).count();

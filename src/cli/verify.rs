@@ -14,7 +14,7 @@ pub fn run(arguments: &Verify) -> Result<u8, Failure> {
     output::tell(&subject.warnings);
     let outcome = verify(&subject, &arguments.answer)?;
     let volumes = subject.volumes(&outcome.x);
-    let (about, model, class) = (&subject.about, subject.model(), subject.class);
+    let (about, model, class) = (&subject.about, subject.shown(), subject.class);
     let findings = Findings { about, model, class, outcome: &outcome, volumes };
     output::print(|out| if arguments.json { result::write(&findings, out) } else { summary::write(&findings, out) })?;
     Ok(u8::from(outcome.status != Status::Certified))

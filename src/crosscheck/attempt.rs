@@ -59,6 +59,9 @@ impl<'a> Referee<'a> {
         budget: Budget<'_>,
         observer: &mut dyn FnMut(&Iteration<'_>),
     ) -> Answer {
+        let mut start = start.to_vec();
+        self.task.model.complete(&mut start);
+        let start = start.as_slice();
         let Some(other) = self.task.substitution else {
             let stop = |x: &[f64]| self.strict.accepts(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
@@ -133,7 +136,8 @@ impl<'a> Referee<'a> {
         Certifier::new(part, Class::Nonlinear, strict(self.tolerances, PART_SPARE)).accepts(x)
     }
 
-    fn judged(&self, contestant: Contestant<'_>, solution: Solution) -> Answer {
+    fn judged(&self, contestant: Contestant<'_>, mut solution: Solution) -> Answer {
+        self.task.model.complete(&mut solution.x);
         let judged = self.judge.certify(&solution.x, solution.multipliers.as_deref());
         let mut remarks = Vec::new();
         if let Err(error) = &judged {

@@ -114,7 +114,8 @@ fn standing(referee: &Referee<'_>, answers: Vec<Answer>, status: Status) -> Outc
 }
 
 /// An outcome that shows a point of its own.
-fn at(referee: &Referee<'_>, answers: Vec<Answer>, x: Vec<f64>, status: Status) -> Outcome {
+fn at(referee: &Referee<'_>, answers: Vec<Answer>, mut x: Vec<f64>, status: Status) -> Outcome {
+    referee.task.model.complete(&mut x);
     let certificate = referee.judge.certify(&x, None).ok();
     let objective = certificate.as_ref().map(|certificate| certificate.objective);
     Outcome { status, x, objective, certificate, answers, ..Outcome::default() }

@@ -12,6 +12,7 @@ mod sizing;
 pub mod solve;
 pub mod subject;
 pub mod utilisation;
+mod present;
 pub mod verify;
 
 use thiserror::Error;

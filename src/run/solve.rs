@@ -8,6 +8,7 @@ use std::sync::atomic::AtomicBool;
 use super::choice::{Choice, refuse_if_none_accepts};
 use super::folder::{Folder, FolderError, default_folder};
 use super::pictures;
+use super::present::present;
 use super::{RunError, Subject, Watcher};
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
@@ -48,7 +49,7 @@ impl Solved {
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
         Findings {
             about: &self.about,
-            model: subject.model(),
+            model: subject.shown(),
             class: subject.class,
             outcome: &self.outcome,
             volumes: self.volumes,
@@ -85,7 +86,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         interrupt: request.interrupt,
     };
     let traces: Vec<_> = request.choices.iter().map(|choice| RefCell::new(Trace::new(choice.backend.name()))).collect();
-    let outcome = observed(&task, &request.choices, &logs, &traces, watcher, subject.sign());
+    let outcome = present(subject, observed(&task, &request.choices, &logs, &traces, watcher, subject));
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(logs.iter().filter_map(|log| log.borrow().failure()));
     let volumes = subject.volumes(&outcome.x);
@@ -94,6 +95,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     if request.plot {
         let traces: Vec<Trace> = traces.into_iter().map(RefCell::into_inner).collect();
         let start = solved.outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
+        let start = &start[..start.len().min(subject.shown().meta().variables())];
         pictures::leave(&traces, start, subject, &solved)?;
     }
     Ok(solved)
@@ -108,14 +110,14 @@ fn starting_point(
         return Ok((subject.model().meta().start.clone(), None));
     };
     let answer = EarlierAnswer::read(path)?;
-    let (start, remarks) = answer.start(subject.model());
+    let (start, remarks) = answer.start(subject.shown());
     warnings.extend(remarks);
-    Ok((start, answer.multipliers(subject.model(), subject.sign())))
+    Ok((subject.completed(start), answer.multipliers(subject.model(), subject.sign())))
 }
 
 /// Logs are opened before anything is solved: a disk that cannot be written to is told at once.
 fn open_logs(subject: &Subject, choices: &[Choice], folder: &Folder) -> Result<Vec<RefCell<IterationLog>>, RunError> {
-    let model = subject.model();
+    let model = subject.shown();
     let open = |choice: &Choice| {
         let path = folder.file(&format!("log-{}.csv", choice.backend.name()));
         let log = IterationLog::create(&path, model.meta().variables(), |j| model.variable_name(j));
@@ -131,7 +133,7 @@ fn observed(
     logs: &[RefCell<IterationLog>],
     traces: &[RefCell<Trace>],
     watcher: &mut dyn Watcher,
-    sign: f64,
+    subject: &Subject,
 ) -> Outcome {
     let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
     let watcher = RefCell::new(watcher);
@@ -145,7 +147,7 @@ fn observed(
         watcher.borrow_mut().begin(choices.get(at).map_or("", |choice| choice.backend.name()), algorithm);
         let watcher = &watcher;
         Box::new(move |iteration: &Iteration<'_>| {
-            let in_users_sense = Iteration { objective: sign * iteration.objective, ..*iteration };
+            let in_users_sense = in_users_terms(subject, iteration);
             if let Some(log) = log {
                 log.borrow_mut().add(&in_users_sense);
             }
@@ -158,6 +160,17 @@ fn observed(
     let outcome = crosscheck::run(task, &backends, &mut observe);
     watcher.borrow_mut().end();
     outcome
+}
+
+/// An iteration in the user's sense and variables. A restated objective is shown as the user's expression is at that point.
+fn in_users_terms<'i>(subject: &Subject, iteration: &Iteration<'i>) -> Iteration<'i> {
+    let (shown, all) = (subject.shown(), iteration.x);
+    let x = all.get(..shown.meta().variables()).unwrap_or(all);
+    let objective = match x.len() < all.len() {
+        true => shown.objective(x).unwrap_or(iteration.objective),
+        false => iteration.objective,
+    };
+    Iteration { objective: subject.sign() * objective, x, ..*iteration }
 }
 
 fn leave_files(findings: &Findings<'_>, folder: &Folder) -> Result<(), RunError> {

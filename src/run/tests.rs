@@ -39,6 +39,7 @@ fn rib() -> Problem {
             lower: vec![0.05, 0.1, 0.05, 0.1],
             upper: vec![0.4, 0.6, 0.4, 0.6],
             start: vec![0.2, 0.3, 0.2, 0.3],
+            typical: Vec::new(),
         },
         sections: Sections {
             names: ["left", "right"].into_iter().collect(),

@@ -7,6 +7,7 @@ mod curvature;
 mod interval;
 mod log_curvature;
 mod quadratic;
+mod slope;
 #[cfg(test)]
 mod tests;
 
@@ -15,6 +16,7 @@ use super::graph::{Graph, Node, NodeId};
 pub use blame::{Wanted, blame};
 pub use curvature::Curvature;
 pub use interval::Interval;
+pub use slope::Slope;
 
 /// What is known of one node.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -114,10 +114,12 @@ impl Assembly<'_> {
             if let Some((message, help)) = wrong(lower, upper, start) {
                 let name = self.problem.variable_name(j);
                 self.findings.mistake(self.variable_place(j), format!("`{name}`: {message}"), help);
+                self.problem.variables.typical.push(0.0);
                 continue;
             }
             let inside = if start.is_nan() { middle(lower, upper) } else { start.clamp(lower, upper) };
             self.problem.variables.start[j] = inside;
+            self.problem.variables.typical.push(if start.is_nan() { 0.0 } else { start.abs() });
             if !start.is_nan() && inside != start {
                 moved += 1;
                 if moved <= NAMED {

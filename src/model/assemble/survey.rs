@@ -73,6 +73,16 @@ impl<'a> Survey<'a> {
         bend
     }
 
+    /// Whether no term of any row added can be negative, proved over the variables' bounds.
+    pub fn is_non_negative(&self) -> bool {
+        self.shapes.iter().all(|shape| shape.weight.is_non_negative() && shape.range().is_non_negative())
+    }
+
+    /// Whether every term of every row added is positive, proved likewise.
+    pub fn is_positive(&self) -> bool {
+        self.shapes.iter().all(|shape| shape.weight.lower > 0.0 && shape.range().lower > 0.0)
+    }
+
     /// The term that stands in the way of a property, in words.
     pub fn blame(&self, wanted: Wanted) -> Option<String> {
         self.shapes.iter().find_map(|shape| {
@@ -88,6 +98,10 @@ impl<'a> Survey<'a> {
 }
 
 impl Shape {
+    fn range(&self) -> Interval {
+        self.structures()[self.root as usize].interval
+    }
+
     fn structures(&self) -> Vec<Structure> {
         analyse(&self.graph, &self.inputs, &self.data)
     }

@@ -2,12 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::curvature::{Active, Choice, Curvature, Hessian, ROUNDING, judge as judge_choice};
-use super::point::Point;
-use super::small_kkt::Matrices;
-use crate::linear_algebra::FactorizationError;
+use super::small_kkt;
+use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::{Curvature, judge as judge_choice};
+use crate::certificate::point::Point;
+use crate::linear_algebra::saddle_point::SaddlePoint;
+use crate::linear_algebra::{FactorizationError, Partition};
 use crate::model::Meta;
-use crate::model::components::Partition;
 
 /// Models of fewer variables are left in one piece.
 const FEWEST_VARIABLES: usize = 200;
@@ -74,13 +75,13 @@ struct Found {
 #[derive(Default)]
 struct Piece {
     choice: Choice,
-    matrices: Matrices,
+    matrices: SaddlePoint,
 }
 
 impl Piece {
     fn examine(&mut self, point: &Point<'_>, hessian: &Hessian) -> Found {
         let (choice, matrices) = (&self.choice, &mut self.matrices);
-        matrices.fill(point, hessian, &choice.free, &choice.held);
+        small_kkt::fill(matrices, point, hessian, &choice.free, &choice.held);
         let dependent = matrices.has_dependent_rows();
         let singular = matrices.bends_down(-ROUNDING);
         // What bends up beyond rounding does not bend down.
@@ -95,7 +96,7 @@ impl Piece {
     fn bends_down_inwards(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
         let (Choice { free, held, weak_bounds, weak_rows }, matrices) = (&self.choice, &mut self.matrices);
         let mut bends_down = |free: &[usize], held: &[usize]| {
-            matrices.fill(point, hessian, free, held);
+            small_kkt::fill(matrices, point, hessian, free, held);
             matrices.bends_down(ROUNDING)
         };
         let by_bound = weak_bounds.iter().filter(|&&j| hessian.size[j] > 0.0).any(|&j| {

@@ -6,16 +6,22 @@
 //! programming problem"). S is shifted by a small multiple of the row sums of its terms' magnitudes, so that what rounding
 //! makes of a flat direction does not count.
 
-use super::kkt::Kkt;
-use super::narrow;
-use super::pieces;
-use super::point::Point;
-use super::{Side, multipliers::Multipliers};
-use crate::linear_algebra::FactorizationError;
-use crate::model::{EvaluationError, Model};
+mod by_component;
+mod kkt;
+mod null_space;
+mod small_kkt;
+mod system;
 
-/// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
-pub(super) const ROUNDING: f64 = 1e-7;
+pub(super) use kkt::Kkt;
+pub(super) use system::{Active, Choice, Hessian};
+
+use super::Side;
+use super::multipliers::Multipliers;
+use super::point::Point;
+use crate::linear_algebra::FactorizationError;
+use crate::model::EvaluationError;
+use system::ROUNDING;
+
 /// Weakly active limits tested one by one at the most, and what all these factorisations together may cost (sum of orders).
 const WEAK_LIMITS: usize = 64;
 const WEAK_WORK: usize = 400_000;
@@ -29,13 +35,6 @@ pub(super) struct Curvature {
     pub(super) singular: bool,
     /// The active rows are dependent over the free variables.
     pub(super) dependent: bool,
-}
-
-/// The active set at the point.
-pub(super) struct Active<'a> {
-    pub(super) rows: &'a [Side],
-    pub(super) bounds: &'a [Side],
-    pub(super) multipliers: &'a Multipliers,
 }
 
 /// Whether the gradients of the active limits are linearly dependent.
@@ -54,71 +53,11 @@ pub(super) fn magnitudes(point: &Point<'_>, multipliers: &Multipliers) -> Result
 
 /// The whole test.
 pub(super) fn examine(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Curvature {
-    let judged = match pieces::apart(point.meta()) {
-        Some(partition) => pieces::judge(point, active, hessian, &partition),
+    let judged = match by_component::apart(point.meta()) {
+        Some(partition) => by_component::judge(point, active, hessian, &partition),
         None => judge(point, active, hessian, &Choice::all(point, active)),
     };
     judged.unwrap_or(Curvature { escape: None, singular: true, dependent: true })
-}
-
-/// Which variables and rows are looked at.
-#[derive(Default)]
-pub(super) struct Choice {
-    /// Free variables.
-    pub(super) free: Vec<usize>,
-    /// Active rows.
-    pub(super) held: Vec<usize>,
-    /// Variables on bounds with hardly a multiplier.
-    pub(super) weak_bounds: Vec<usize>,
-    /// Active rows with hardly a multiplier.
-    pub(super) weak_rows: Vec<usize>,
-}
-
-impl Choice {
-    pub(super) fn all(point: &Point<'_>, active: &Active<'_>) -> Choice {
-        let mut choice = Choice::default();
-        choice.choose(point, active, 0..active.bounds.len(), 0..active.rows.len());
-        choice
-    }
-
-    /// Free variables and those on bounds that hardly push, ascending.
-    pub(super) fn loose_variables(&self) -> Vec<usize> {
-        let mut loose = [&self.free[..], &self.weak_bounds].concat();
-        loose.sort_unstable();
-        loose
-    }
-
-    /// Equalities and active rows that push.
-    pub(super) fn strict_rows(&self) -> Vec<usize> {
-        self.held.iter().copied().filter(|i| self.weak_rows.binary_search(i).is_err()).collect()
-    }
-
-    /// Sorts some variables and rows, given ascending.
-    pub(super) fn choose(
-        &mut self,
-        point: &Point<'_>,
-        active: &Active<'_>,
-        variables: impl Iterator<Item = usize>,
-        rows: impl Iterator<Item = usize>,
-    ) {
-        [&mut self.free, &mut self.held, &mut self.weak_bounds, &mut self.weak_rows].into_iter().for_each(Vec::clear);
-        let weak = 1e-6 * point.scale();
-        for j in variables {
-            match active.bounds[j] {
-                Side::None => self.free.push(j),
-                Side::Lower | Side::Upper if (active.multipliers.bounds[j] * point.sizes[j]).abs() <= weak => {
-                    self.weak_bounds.push(j);
-                }
-                _ => {}
-            }
-        }
-        for i in rows.filter(|&i| active.rows[i] != Side::None && point.slopes[i] > 0.0) {
-            self.held.push(i);
-            if active.rows[i] != Side::Equal && (active.multipliers.rows[i] * point.slopes[i]).abs() <= weak {
-                self.weak_rows.push(i);
-            }
-        }
-    }
 }
 
 /// The test over some variables and rows, which nothing outside them touches.
@@ -132,7 +71,7 @@ pub(super) fn judge(
     // The rows alone make a far sparser matrix.
     let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
     // What bends up beyond rounding does not bend down.
-    let bends_up = matches!(narrow::bends_up(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
+    let bends_up = matches!(null_space::bends_up(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
     let (mut singular, mut escape) = if bends_up { (false, None) } else { whole(point, hessian, free, held)? };
     if escape.is_none() && !dependent {
         escape = one_sided(point, active, hessian, choice)?;
@@ -195,45 +134,4 @@ fn turned(mut direction: Vec<f64>, inward: f64) -> Vec<f64> {
         direction.iter_mut().for_each(|v| *v = -*v);
     }
     direction
-}
-
-/// S = D∇²L D/σ along the model's pattern, and row by row the sum of the magnitudes it is made of.
-pub(super) struct Hessian {
-    pub(super) values: Vec<f64>,
-    pub(super) size: Vec<f64>,
-}
-
-impl Hessian {
-    /// The same, its largest row of magnitudes being 1.
-    pub(super) fn normalised(&self) -> Hessian {
-        let largest = self.size.iter().fold(0.0, |most: f64, size| most.max(*size));
-        let unit = if largest > 0.0 { largest } else { 1.0 };
-        let share = |all: &[f64]| all.iter().map(|value| value / unit).collect();
-        Hessian { values: share(&self.values), size: share(&self.size) }
-    }
-
-    pub(super) fn of(point: &Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
-        let (pattern, y) = (&point.meta().hessian, &multipliers.rows);
-        let mut hessian = Hessian { values: vec![0.0; pattern.len()], size: vec![0.0; pattern.rows()] };
-        let mut part = vec![0.0; pattern.len()];
-        let is_linear = &point.meta().row_is_linear;
-        // The objective, rows at their upper and rows at their lower limits.
-        for (weight, sign) in [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-            let chosen: Vec<f64> = y.iter().map(|&y| if y * sign > 0.0 { y } else { 0.0 }).collect();
-            // All entries would be zero where no row bends.
-            if weight == 0.0 && chosen.iter().zip(is_linear).all(|(&y, &is_linear)| is_linear || y == 0.0) {
-                continue;
-            }
-            point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
-            for (at, (row, column)) in pattern.iter().enumerate() {
-                let entry = part[at] * (point.sizes[row] * point.sizes[column] / point.scale());
-                hessian.values[at] += entry;
-                hessian.size[row] += entry.abs();
-                if row != column {
-                    hessian.size[column] += entry.abs();
-                }
-            }
-        }
-        Ok(hessian)
-    }
 }

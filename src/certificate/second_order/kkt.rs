@@ -1,23 +1,18 @@
 //! The scaled KKT matrix over free variables and active rows, and what its inertia says.
 
-use super::curvature::Hessian;
-use super::matrix::Symmetric;
-use super::point::Point;
+use super::system::{Hessian, places, weight};
+use crate::certificate::point::Point;
+use crate::linear_algebra::entries::Symmetric;
+use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
 use crate::linear_algebra::{FactorizationError, Inertia};
 
-/// −δ of the dual block: dependent rows neither break the factorisation nor change the count.
-pub(super) const DUAL: f64 = 1e-11;
-/// Rows whose combination is shorter than this (squared) are dependent.
-pub(super) const DEPENDENT: f64 = 1e-12;
-/// Yardstick where nothing bends, in units of σ.
-const FLOOR: f64 = 1e-5;
 const POWER_STEPS: usize = 60;
 /// For flat directions: the shift that keeps the matrix regular, and the steps of inverse iteration.
 const FLAT_SHIFT: f64 = 1e-6;
 const FLAT_STEPS: usize = 4;
 
 /// [S + shift, Aᵀ; A, −δI]
-pub(super) struct Kkt<'a> {
+pub(in crate::certificate) struct Kkt<'a> {
     point: &'a Point<'a>,
     free: &'a [usize],
     /// Entries of S: (place among the free, place, value).
@@ -33,7 +28,7 @@ pub(super) struct Kkt<'a> {
 }
 
 impl<'a> Kkt<'a> {
-    pub(super) fn new(
+    pub(in crate::certificate) fn new(
         point: &'a Point<'a>,
         hessian: &Hessian,
         free: &'a [usize],
@@ -50,7 +45,11 @@ impl<'a> Kkt<'a> {
     }
 
     /// Only A matters.
-    pub(super) fn without_hessian(point: &'a Point<'a>, free: &'a [usize], held: &[usize]) -> Result<Self, FactorizationError> {
+    pub(in crate::certificate) fn without_hessian(
+        point: &'a Point<'a>,
+        free: &'a [usize],
+        held: &[usize],
+    ) -> Result<Self, FactorizationError> {
         Kkt::assemble(point, free, held, (Vec::new(), vec![0.0; free.len()]), Symmetric::new)
     }
 
@@ -76,7 +75,7 @@ impl<'a> Kkt<'a> {
     }
 
     /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
-    pub(super) fn bends_down(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+    pub(in crate::certificate) fn bends_down(&mut self, shift: f64) -> Result<bool, FactorizationError> {
         let size = &self.size;
         let diagonal = size.iter().map(|&size| shift * weight(size)).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
@@ -85,7 +84,7 @@ impl<'a> Kkt<'a> {
     }
 
     /// Whether the rows of A are linearly dependent: [I Aᵀ; A εI] gains a positive eigenvalue for every singular value below √ε.
-    pub(super) fn dependent_rows(&mut self) -> Result<bool, FactorizationError> {
+    pub(in crate::certificate) fn dependent_rows(&mut self) -> Result<bool, FactorizationError> {
         if self.held == 0 {
             return Ok(false);
         }
@@ -100,7 +99,7 @@ impl<'a> Kkt<'a> {
 
     /// The direction of lowest curvature on the null space of A, relative to S's magnitudes, by inverse iteration; in the user's
     /// variables, its largest relative entry 1. `None` where its curvature, computed anew, is not below −shift.
-    pub(super) fn lowest_direction(&mut self, shift: f64) -> Result<Option<Vec<f64>>, FactorizationError> {
+    pub(in crate::certificate) fn lowest_direction(&mut self, shift: f64) -> Result<Option<Vec<f64>>, FactorizationError> {
         let mut raised = 4.0 * shift;
         while raised < 1e12 && self.bends_down(raised)? {
             raised *= 4.0;
@@ -121,13 +120,17 @@ impl<'a> Kkt<'a> {
     }
 
     /// Whether a direction on the null space of A bends by less than `flat`, in units of σ.
-    pub(super) fn is_flat(&mut self, flat: f64) -> Result<bool, FactorizationError> {
+    pub(in crate::certificate) fn is_flat(&mut self, flat: f64) -> Result<bool, FactorizationError> {
         Ok(self.factor_shifted(-flat)?.negative > self.held)
     }
 
     /// Directions on the null space of A along which S bends by less than `flat`, in units of σ: inverse iteration from `most`
     /// different places. In the user's variables, the largest relative entry of each 1.
-    pub(super) fn flat_directions(&mut self, most: usize, flat: f64) -> Result<Vec<Vec<f64>>, FactorizationError> {
+    pub(in crate::certificate) fn flat_directions(
+        &mut self,
+        most: usize,
+        flat: f64,
+    ) -> Result<Vec<Vec<f64>>, FactorizationError> {
         self.factor_shifted(FLAT_SHIFT)?;
         let (p, mut found) = (self.free.len(), Vec::<Vec<f64>>::new());
         for k in 0..most.min(p + 1) {
@@ -156,26 +159,26 @@ impl<'a> Kkt<'a> {
     }
 
     /// Factorises [S + |S| + I, Aᵀ; A, −δI]: steps with it go downhill and back to the rows, and never far.
-    pub(super) fn factor_proximal(&mut self) -> Result<(), FactorizationError> {
+    pub(in crate::certificate) fn factor_proximal(&mut self) -> Result<(), FactorizationError> {
         let diagonal = self.size.iter().map(|size| size + 1.0).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
         self.matrix.factor(entries).map(|_| ())
     }
 
     /// Factorises [I Aᵀ; A −δI]: steps with it are the shortest back to the rows.
-    pub(super) fn factor_projection(&mut self) -> Result<(), FactorizationError> {
+    pub(in crate::certificate) fn factor_projection(&mut self) -> Result<(), FactorizationError> {
         let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
         self.matrix.factor(entries).map(|_| ())
     }
 
     /// What row k of A was divided by.
-    pub(super) fn slope(&self, k: usize) -> f64 {
+    pub(in crate::certificate) fn slope(&self, k: usize) -> f64 {
         self.slopes[k]
     }
 
     /// Solves with the factors found last: over the free variables, in their scales, then the rows.
-    pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+    pub(in crate::certificate) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         self.matrix.solve(right)
     }
 
@@ -210,20 +213,6 @@ fn is_parallel(a: &[f64], b: &[f64]) -> bool {
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The yardstick of a row of S.
-pub(super) fn weight(size: f64) -> f64 {
-    size + FLOOR
-}
-
-/// Where each variable stands among the free ones; `u32::MAX` for the others.
-pub(super) fn places(variables: usize, free: &[usize]) -> Vec<u32> {
-    let mut place = vec![u32::MAX; variables];
-    for (k, &j) in free.iter().enumerate() {
-        place[j] = k as u32;
-    }
-    place
 }
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.

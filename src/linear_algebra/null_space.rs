@@ -1,28 +1,14 @@
-//! The second-order test of [`super::kkt`] where most active rows touch few variables: their null space is written down block by
-//! block, and only what is left is factorised, often a small part.
-//!
-//! With the columns of Z an orthonormal basis of the null space of the narrow rows, S is positive definite on the null space of
-//! all rows where [ZᵀSZ, (AZ)ᵀ; AZ, −δI] over the other rows has one negative eigenvalue per row: the same test, on the null space
-//! itself instead of a penalty of 1/δ across it.
+//! Orthonormal bases of null spaces, block by block.
 
-use super::curvature::Hessian;
-use super::kkt::{DUAL, weight};
-use super::matrix::Symmetric;
-use super::point::Point;
-use crate::linear_algebra::FactorizationError;
-use crate::model::components::Partition;
+use super::Partition;
 
-/// Rows of more free variables than this are not narrow.
-const WIDEST: usize = 8;
 /// Blocks of more variables are left to the whole test.
 const LARGEST_BLOCK: usize = 32;
-/// Fewer variables and rows are no trouble as a whole.
-const FEWEST: usize = 2000;
 /// A row of which less than this (of its length) is its own among those of its block is left to the whole test.
 const OWN_SHARE: f64 = 1e-3;
 
 /// Null-space bases of the blocks, and where they stand.
-struct Basis {
+pub struct Basis {
     partition: Partition,
     /// Block by block: its variables' rows of Z, each as long as the block has columns.
     rows: Vec<f64>,
@@ -31,43 +17,9 @@ struct Basis {
     first_column: Vec<usize>,
 }
 
-/// Whether S shifted by `shift` times its magnitudes certainly bends up on the null space of the active rows. `None` where this test
-/// does not pay, or cannot tell.
-pub(super) fn bends_up(
-    point: &Point<'_>,
-    hessian: &Hessian,
-    (free, held): (&[usize], &[usize]),
-    shift: f64,
-) -> Option<Result<bool, FactorizationError>> {
-    if free.len() + held.len() < FEWEST {
-        return None;
-    }
-    let place = super::kkt::places(point.meta().variables(), free);
-    let row = |&i: &usize| {
-        let of_free = point.row_in_sizes(i).map(|(j, value)| (place[j], value));
-        of_free.filter(|&(j, value)| j != u32::MAX && value != 0.0).collect()
-    };
-    let rows: Vec<Vec<(u32, f64)>> = held.iter().map(row).collect();
-    let (narrow, wide): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.len() <= WIDEST);
-    let basis = Basis::of(free.len(), &narrow)?;
-    let order = basis.columns() + wide.len();
-    (2 * order < free.len() + held.len()).then(|| {
-        let mut entries = Vec::new();
-        basis.reduce_hessian(point, hessian, (free, &place), shift, &mut entries);
-        for (k, row) in wide.iter().enumerate() {
-            let at = (basis.columns() + k) as u32;
-            row.iter().for_each(|&(j, value)| entries.extend(basis.row(j).map(|(column, z)| (at, column, value * z))));
-            entries.push((at, at, -DUAL));
-        }
-        let positions: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.0, entry.1)).collect();
-        let inertia = Symmetric::curved(order, &positions)?.factor(entries.iter().map(|entry| entry.2))?;
-        Ok(inertia.negative == wide.len())
-    })
-}
-
 impl Basis {
     /// `None` where a block is large or its rows are nearly dependent.
-    fn of(variables: usize, narrow: &[Vec<(u32, f64)>]) -> Option<Basis> {
+    pub fn of(variables: usize, narrow: &[Vec<(u32, f64)>]) -> Option<Basis> {
         let members: Vec<Vec<u32>> = narrow.iter().map(|row| row.iter().map(|entry| entry.0).collect()).collect();
         let partition = Partition::new(variables, members.iter().map(Vec::as_slice), std::iter::empty())?;
         if partition.largest() > LARGEST_BLOCK {
@@ -90,48 +42,21 @@ impl Basis {
     }
 
     /// Columns of Z.
-    fn columns(&self) -> usize {
+    pub fn columns(&self) -> usize {
         self.first_column.last().copied().unwrap_or_default()
     }
 
     /// Variable j's row of Z: columns and entries.
-    fn row(&self, j: u32) -> impl Iterator<Item = (u32, f64)> {
+    pub fn row(&self, j: u32) -> impl Iterator<Item = (u32, f64)> {
         let block = self.partition.component(j) as usize;
         let (first, last) = (self.first_column[block], self.first_column[block + 1]);
         let start = self.first_row[block] + self.partition.place(j) as usize * (last - first);
         (first..last).map(|column| column as u32).zip(self.rows[start..start + last - first].iter().copied())
     }
-
-    /// The lower triangle of Zᵀ(S + shift·W)Z.
-    fn reduce_hessian(
-        &self,
-        point: &Point<'_>,
-        hessian: &Hessian,
-        (free, place): (&[usize], &[u32]),
-        shift: f64,
-        entries: &mut Vec<(u32, u32, f64)>,
-    ) {
-        let mut add = |a: u32, b: u32, value: f64| {
-            for (k, z) in self.row(a) {
-                entries.extend(self.row(b).filter(|&(l, _)| l <= k).map(|(l, other)| (k, l, z * value * other)));
-            }
-        };
-        for (at, (row, column)) in point.meta().hessian.iter().enumerate() {
-            let (a, b) = (place[row], place[column]);
-            if a == u32::MAX || b == u32::MAX || hessian.values[at] == 0.0 {
-                continue;
-            }
-            add(a, b, hessian.values[at]);
-            if a != b {
-                add(b, a, hessian.values[at]);
-            }
-        }
-        free.iter().enumerate().for_each(|(k, &j)| add(k as u32, k as u32, shift * weight(hessian.size[j])));
-    }
 }
 
 /// An orthonormal basis of the vectors of this length that are orthogonal to all rows; `None` where the rows are nearly dependent.
-fn null_space(size: usize, rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+pub fn null_space(size: usize, rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     if rows.len() > size {
         return None;
     }

@@ -5,10 +5,8 @@ use std::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::linear_algebra::Inertia;
-use crate::linear_algebra::bunch_kaufman::{self, Pivot};
-use crate::model::Pattern;
-use crate::model::components::Partition;
+use super::bunch_kaufman::{self, Pivot};
+use super::{Inertia, Partition, Pattern};
 
 /// Unknowns coupled to more others than this belong to the border.
 const WIDE: u32 = 32;
@@ -24,7 +22,7 @@ const ACCURATE: f64 = 1e-10;
 
 /// [K C^T; C E] with K block diagonal. Factorised only where the border's Schur complement E − C K⁻¹ C^T is negative definite, as in
 /// the augmented systems of least squares.
-pub(super) struct Bordered {
+pub struct Bordered {
     pattern: Pattern,
     blocks: Vec<Block>,
     /// Unknowns, block by block.
@@ -69,7 +67,7 @@ impl Block {
 
 impl Bordered {
     /// The blocks and the border of a lower triangle; the pattern back where it has none such.
-    pub(super) fn new(pattern: Pattern) -> Result<Self, Pattern> {
+    pub fn new(pattern: Pattern) -> Result<Self, Pattern> {
         match Bordered::split(&pattern) {
             Some((border, partition)) => Ok(Bordered::laid_out(pattern, border, &partition)),
             None => Err(pattern),
@@ -77,7 +75,7 @@ impl Bordered {
     }
 
     /// The pattern, for another solver.
-    pub(super) fn pattern(&self) -> &Pattern {
+    pub fn pattern(&self) -> &Pattern {
         &self.pattern
     }
 
@@ -143,7 +141,7 @@ impl Bordered {
     }
 
     /// Factorises with these values along the pattern; `None` where the border's Schur complement is not negative definite.
-    pub(super) fn factor(&mut self, values: &[f64]) -> Option<Inertia> {
+    pub fn factor(&mut self, values: &[f64]) -> Option<Inertia> {
         self.entries.fill(0.0);
         for (&place, &value) in self.places.iter().zip(values) {
             self.entries[place] = value;
@@ -173,7 +171,7 @@ impl Bordered {
     }
 
     /// The solution for the values factorised last, refined; `None` where it cannot be had to some digits.
-    pub(super) fn solve(&self, values: &[f64], right: &[f64]) -> Option<Vec<f64>> {
+    pub fn solve(&self, values: &[f64], right: &[f64]) -> Option<Vec<f64>> {
         let mut x = self.solved(right)?;
         let mut residual = self.residual(values, right, &x);
         for _ in 0..REFINEMENTS {

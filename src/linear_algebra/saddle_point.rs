@@ -1,60 +1,45 @@
-//! The tests of [`super::kkt`] on small dense matrices.
+//! Whether a symmetric matrix S bends down on the null space of a matrix A, by the inertia of [S Aᵀ; A −δI], dense.
 //!
 //! Most pass by a definite matrix of half the order, which proves the same by Haynsworth's inertia additivity ("Determination
 //! of the inertia of a partitioned Hermitian matrix", 1968); the indefinite one is factorised only where that fails.
 
-use super::curvature::Hessian;
-use super::kkt::{DEPENDENT, DUAL, weight};
-use super::point::Point;
-use crate::linear_algebra::bunch_kaufman::{self, Pivot};
-use crate::linear_algebra::{Inertia, cholesky};
+use super::bunch_kaufman::{self, Pivot};
+use super::{Inertia, cholesky};
 
+/// −δ of the dual block: dependent rows neither break the factorisation nor change the count.
+pub const DUAL: f64 = 1e-11;
+/// Rows whose combination is shorter than this (squared) are dependent.
+pub const DEPENDENT: f64 = 1e-12;
 /// What an active row adds across itself, in units of the yardsticks: far above any curvature, and far below what would hide
 /// in rounding what decides (a share of 1e−7).
 const PENALTY: f64 = 1e3;
 
-/// S and A over some free variables and active rows, and room for factors.
+/// S and A, and room for factors.
 #[derive(Default)]
-pub(super) struct Matrices {
+pub struct SaddlePoint {
     free: usize,
     held: usize,
-    /// S, row by row.
-    hessian: Vec<f64>,
+    /// S, row by row, lower triangle.
+    pub hessian: Vec<f64>,
     /// The yardstick of each row of S.
-    weights: Vec<f64>,
-    /// A, row by row, each divided by its slope.
-    rows: Vec<f64>,
+    pub weights: Vec<f64>,
+    /// A, row by row.
+    pub rows: Vec<f64>,
     matrix: Vec<f64>,
     pivots: Vec<Pivot>,
 }
 
-impl Matrices {
-    /// Takes the entries of S and A over these variables and rows, both ascending.
-    pub(super) fn fill(&mut self, point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) {
-        (self.free, self.held) = (free.len(), held.len());
-        self.weights.clear();
-        self.weights.extend(free.iter().map(|&j| weight(hessian.size[j])));
-        reset(&mut self.hessian, free.len() * free.len());
-        let pattern = &point.meta().hessian;
-        for (row, &i) in free.iter().enumerate() {
-            for at in pattern.range(i) {
-                if let Ok(column) = free.binary_search(&(pattern.columns[at] as usize)) {
-                    self.hessian[row * free.len() + column] += hessian.values[at];
-                }
-            }
-        }
-        reset(&mut self.rows, held.len() * free.len());
-        for (row, &i) in held.iter().enumerate() {
-            for (j, value) in point.row_in_sizes(i) {
-                if let Ok(column) = free.binary_search(&j) {
-                    self.rows[row * free.len() + column] = value;
-                }
-            }
-        }
+impl SaddlePoint {
+    /// S of this order and this many rows of A, all zero.
+    pub fn reset(&mut self, free: usize, held: usize) {
+        (self.free, self.held) = (free, held);
+        reset(&mut self.hessian, free * free);
+        reset(&mut self.weights, free);
+        reset(&mut self.rows, held * free);
     }
 
-    /// As [`Kkt::dependent_rows`](super::kkt::Kkt::dependent_rows).
-    pub(super) fn has_dependent_rows(&mut self) -> bool {
+    /// Whether the rows of A are linearly dependent: [I Aᵀ; A εI] gains a positive eigenvalue for every singular value below √ε.
+    pub fn has_dependent_rows(&mut self) -> bool {
         let (p, m) = (self.free, self.held);
         if m == 0 || m > p {
             return m > 0;
@@ -77,8 +62,8 @@ impl Matrices {
         cholesky::factor(&mut self.matrix, m)
     }
 
-    /// As [`Kkt::bends_down`](super::kkt::Kkt::bends_down).
-    pub(super) fn bends_down(&mut self, shift: f64) -> bool {
+    /// Whether S + shift·W bends down on the null space of A.
+    pub fn bends_down(&mut self, shift: f64) -> bool {
         let (p, m) = (self.free, self.held);
         if self.bends_up(shift) {
             return false;

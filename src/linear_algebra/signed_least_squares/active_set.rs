@@ -1,11 +1,14 @@
-//! The least squares of [`super::least_squares`] where few variables carry many columns (more active rows than variables): an
+//! The least squares of [`super`] where few variables carry many columns (more active rows than variables): an
 //! active set on dense matrices, which never holds more columns than it needs.
 //!
 //! C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23 (NNLS).
 
+use std::time::Instant;
+
 use nalgebra::{DMatrix, DVector};
 
-use super::least_squares::{Column, PROXIMAL, residual};
+use super::block_pivoting::is_over;
+use super::problem::{Column, PROXIMAL, residual};
 
 /// Above this many variables a dense factorisation costs more than the sparse one.
 const MOST_VARIABLES: usize = 256;
@@ -27,12 +30,14 @@ pub(super) struct ActiveSet<'a> {
     /// Columns in use, in the order they came in.
     basic: Vec<usize>,
     y: Vec<f64>,
+    /// When to take what is there.
+    until: Option<Instant>,
 }
 
 impl<'a> ActiveSet<'a> {
-    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>]) -> Self {
+    pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>], until: Option<Instant>) -> Self {
         let basic = (0..columns.len()).filter(|&k| columns[k].sign == 0.0).collect();
-        ActiveSet { g, columns, basic, y: vec![0.0; columns.len()] }
+        ActiveSet { g, columns, basic, y: vec![0.0; columns.len()], until }
     }
 
     /// The minimiser with the proximal term around `centre`, from the set of columns in use; `None` where numbers overflow.
@@ -40,7 +45,8 @@ impl<'a> ActiveSet<'a> {
         let mut refused = vec![false; self.columns.len()];
         for _ in 0..3 * self.columns.len() + 30 {
             self.settle(centre)?;
-            let Some(entering) = self.entering(centre, &refused) else { break };
+            let entering = self.entering(centre, &refused).filter(|_| !is_over(self.until));
+            let Some(entering) = entering else { break };
             self.basic.push(entering);
             let z = self.stationary(centre)?;
             // Rounding alone called it in where it then moves the wrong way.
@@ -117,7 +123,7 @@ impl<'a> ActiveSet<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::least_squares::solve;
+    use crate::linear_algebra::signed_least_squares::solve;
 
     /// A fixed number in [−1, 1) without pattern.
     fn scattered(k: u64) -> f64 {
@@ -139,7 +145,7 @@ mod tests {
         };
         let columns: Vec<Column<'_>> = (0..count).map(column).collect();
         assert!(fits(g.len(), columns.len()));
-        let y = solve(&g, &columns).unwrap();
+        let y = solve(&g, &columns, None).unwrap();
         let mut residual = g.clone();
         for (column, y) in columns.iter().zip(&y) {
             column.entries.iter().for_each(|&(row, value)| residual[row as usize] += value * y);
@@ -158,7 +164,7 @@ mod tests {
         let pairs: Vec<[(u32, f64); 2]> = pairs.collect();
         let column = |entries| Column { entries, sign: -1.0, weight: 0.0, basic: true };
         let columns: Vec<Column<'_>> = pairs.iter().map(|pair| column(&pair[..])).collect();
-        let y = solve(&vec![1.0; n as usize], &columns).unwrap();
+        let y = solve(&vec![1.0; n as usize], &columns, None).unwrap();
         let mut residual = vec![1.0; n as usize];
         for (column, y) in columns.iter().zip(&y) {
             assert!(*y <= 0.0);

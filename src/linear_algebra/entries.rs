@@ -1,14 +1,13 @@
 //! Sparse symmetric matrices put together from entries.
 
+use super::blocks::BlockSolver;
 use super::bordered::Bordered;
-use crate::linear_algebra::blocks::BlockSolver;
-use crate::linear_algebra::bunch_kaufman::{self, Pivot};
-use crate::linear_algebra::congruence::CongruentSolver;
-use crate::linear_algebra::{FactorizationError, Inertia, SymmetricSolver};
-use crate::model::Pattern;
+use super::bunch_kaufman::{self, Pivot};
+use super::congruence::CongruentSolver;
+use super::{FactorizationError, Inertia, Pattern, SymmetricSolver};
 
 /// A lower triangle whose positions are fixed and whose values change.
-pub(super) struct Symmetric {
+pub struct Symmetric {
     places: Vec<usize>,
     values: Vec<f64>,
     solver: Solver,
@@ -31,7 +30,7 @@ enum Solver {
 
 impl Symmetric {
     /// A matrix of this order with entries at these positions (either triangle, repeats are added up).
-    pub(super) fn new(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+    pub fn new(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
         Symmetric::build(order, positions, |pattern| match pattern.rows() < LARGE {
             true => sparse(&pattern),
             false => {
@@ -42,12 +41,12 @@ impl Symmetric {
     }
 
     /// The same by sparse factors, whatever the structure.
-    pub(super) fn sparse(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+    pub fn sparse(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
         Symmetric::build(order, positions, |pattern| sparse(&pattern))
     }
 
     /// The same for a matrix of second derivatives.
-    pub(super) fn curved(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+    pub fn curved(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
         if order < LARGE {
             return Symmetric::new(order, positions);
         }
@@ -74,7 +73,7 @@ impl Symmetric {
     }
 
     /// The same for one of very many small matrices: nothing is analysed, all of it is stored.
-    pub(super) fn one_of_many(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
+    pub fn one_of_many(order: usize, positions: &[(u32, u32)]) -> Result<Self, FactorizationError> {
         if order > SMALL {
             return Symmetric::new(order, positions);
         }
@@ -85,7 +84,7 @@ impl Symmetric {
     }
 
     /// Factorises with these values, one per position given.
-    pub(super) fn factor(&mut self, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
+    pub fn factor(&mut self, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
         self.values.fill(0.0);
         for (&place, entry) in self.places.iter().zip(entries) {
             self.values[place] += entry;
@@ -114,7 +113,7 @@ impl Symmetric {
     }
 
     /// Solves with the factors found last.
-    pub(super) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+    pub fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         let mut x = vec![0.0; right.len()];
         match &self.solver {
             Solver::Dense { factors, pivots } => {

@@ -5,12 +5,11 @@
 //! directions that do bend, by chord steps with [D∇²L D/σ + |…| + I, Aᵀ; A, −δI]; the first change of the objective that rounding
 //! and the accepted slope do not explain decides.
 
-use super::Tolerances;
-use super::curvature::{Active, Choice, Hessian};
-use super::kkt::Kkt;
-use super::multipliers::Multipliers;
-use super::point::Point;
-use super::trial::Trial;
+use super::trial_point::Trial;
+use crate::certificate::Tolerances;
+use crate::certificate::multipliers::Multipliers;
+use crate::certificate::point::Point;
+use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
 use crate::linear_algebra::FactorizationError;
 use crate::model::Model;
 
@@ -27,7 +26,7 @@ const STRETCH: f64 = 10.0;
 
 /// A direction along which a stationary point is no minimum although no curvature shows it; in the user's variables, ten times
 /// the way to a feasible point that is lower.
-pub(super) fn find(
+pub(in crate::certificate) fn find(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,

@@ -1,8 +1,8 @@
-//! The least squares of [`super::least_squares`] where columns are few and well independent: normal equations, refined once by
+//! The least squares of [`super`] where columns are few and well independent: normal equations, refined once by
 //! the residual itself (corrected seminormal equations: Å. Björck, "Stability analysis of the method of seminormal equations",
 //! 1987), which are then as good as an orthogonal factorisation. The minimiser is unique there, so no proximal term is needed.
 
-use super::least_squares::{Column, Stationary};
+use super::problem::{Column, Stationary};
 use crate::linear_algebra::{FactorizationError, cholesky};
 
 /// More columns are left to others.
@@ -12,7 +12,7 @@ const OWN_SHARE: f64 = 1e-4;
 
 /// One system, and room for those that follow.
 #[derive(Default)]
-pub(super) struct NormalEquations {
+pub struct NormalEquations {
     /// g and B, column by column, each of g's length.
     g: Vec<f64>,
     columns: Vec<f64>,
@@ -110,7 +110,7 @@ fn reset(values: &mut Vec<f64>, count: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::least_squares::{solve, solve_one_of_many};
+    use crate::linear_algebra::signed_least_squares::{solve, solve_one_of_many};
 
     fn column(entries: &[(u32, f64)], sign: f64, weight: f64) -> Column<'_> {
         Column { entries, sign, weight, basic: true }
@@ -126,10 +126,10 @@ mod tests {
             column(&[(3, 1.0)], 0.0, 0.0),
         ];
         let mut room = NormalEquations::default();
-        let (quick, slow) = (solve_one_of_many(&g, &columns, &mut room).unwrap(), solve(&g, &columns).unwrap());
+        let (quick, slow) = (solve_one_of_many(&g, &columns, &mut room, None).unwrap(), solve(&g, &columns, None).unwrap());
         assert!(quick.iter().zip(&slow).all(|(a, b)| (a - b).abs() < 1e-12), "{quick:?} {slow:?}");
         // The room serves again.
-        let single = solve_one_of_many(&[-2.0], &[column(&[(0, 1.0)], 1.0, 0.0)], &mut room).unwrap();
+        let single = solve_one_of_many(&[-2.0], &[column(&[(0, 1.0)], 1.0, 0.0)], &mut room, None).unwrap();
         assert_eq!(single, [2.0]);
     }
 
@@ -138,7 +138,7 @@ mod tests {
         let twice = [column(&[(0, 1.0), (1, 0.5)], 1.0, 0.0), column(&[(0, 1.0), (1, 0.5)], 1.0, 0.0)];
         let mut room = NormalEquations::default();
         assert!(room.fill(&[-2.0, -1.0], &twice) && !room.factorise(&[true, true]));
-        let y = solve_one_of_many(&[-2.0, -1.0], &twice, &mut room).unwrap();
+        let y = solve_one_of_many(&[-2.0, -1.0], &twice, &mut room, None).unwrap();
         assert!((y[0] + y[1] - 2.0).abs() < 1e-9, "{y:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! Union–find over what couples variables.
 
-use crate::model::Pattern;
+use super::Pattern;
 
 /// Variables and rows by component; components are numbered by their smallest variable.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
