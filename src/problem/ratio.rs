@@ -110,9 +110,7 @@ fn coefficient(formula: &Formula) -> (f64, Option<Formula>) {
         },
         Formula::Binary(Binary::Divide, left, right) => match (coefficient(left), coefficient(right)) {
             ((a, rest), (b, None)) => (a / b, rest),
-            ((a, left), (b, Some(right))) => {
-                (a / b, Some(joined(Binary::Divide, left.unwrap_or(Formula::Constant(1.0)), right)))
-            }
+            ((a, left), (b, Some(right))) => (a / b, Some(joined(Binary::Divide, left.unwrap_or(Formula::Constant(1.0)), right))),
         },
         other => (1.0, Some(other.clone())),
     }
@@ -188,7 +186,9 @@ mod tests {
 
     #[test]
     fn a_lower_limit_stands_above_the_line() {
-        let Ratio::Row(ratio, _) = Problem::default().ratio(&Formula::Variable(0), &Limit::AtLeast(number(3.0))) else { panic!() };
+        let Ratio::Row(ratio, _) = Problem::default().ratio(&Formula::Variable(0), &Limit::AtLeast(number(3.0))) else {
+            panic!()
+        };
         assert_eq!(ratio, Formula::Binary(Binary::Divide, Box::new(number(3.0)), variable(0)));
         assert!(matches!(Problem::default().ratio(&Formula::Variable(0), &Limit::AtMost(number(-1.0))), Ratio::None));
     }

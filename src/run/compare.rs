@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use super::Subject;
-use super::present::present;
 use super::choice::{self, Choice};
+use super::present::present;
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Task};
 use crate::problem::Settings;

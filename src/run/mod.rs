@@ -7,12 +7,12 @@ pub mod compare;
 pub mod folder;
 pub mod network;
 mod pictures;
+mod present;
 pub mod section;
 mod sizing;
 pub mod solve;
 pub mod subject;
 pub mod utilisation;
-mod present;
 pub mod verify;
 
 use thiserror::Error;

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 use super::acceptance::{Built, Candidate};
-use super::original::Original;
+use super::original::{OWN_SCALE, Original};
 use super::{Action, ReconstructError, Rule};
 use crate::mesh::{NONE, PolygonMesh, QuadMesh, Vector, angle, boundary};
 
@@ -202,9 +202,9 @@ impl<'a> Filler<'a> {
         Some(quad)
     }
 
-    /// Where the fourth corner goes, the first that fits: the original vertex within the tolerance of a + c − v, the nearest
-    /// point of the surface within it, the original vertex within half the shorter edge. On the original from the start,
-    /// corners of a large hole do not drift off it.
+    /// Where the fourth corner goes, the first that fits: the original vertex within a quarter of the shorter edge of
+    /// a + c − v, the nearest point of the surface within the tolerance, the original vertex within half the shorter edge. On
+    /// the original from the start, corners of a large hole do not drift off it.
     fn new_vertex(&self, [a, v, c]: [u32; 3], quad: [u32; 4]) -> Option<Vector> {
         let [pa, pv, pc] = [a, v, c].map(|v| self.positions[v as usize]);
         let guess = pa + pc - pv;

@@ -358,7 +358,13 @@ impl Restating {
         };
         let level = pieces.iter().map(|piece| self.level(piece)).max().unwrap_or(0);
         let number = self.auxiliaries.len() + 1;
-        let word = if matches!(kink, Formula::Unary(..)) { "abs" } else if upward { "max" } else { "min" };
+        let word = if matches!(kink, Formula::Unary(..)) {
+            "abs"
+        } else if upward {
+            "max"
+        } else {
+            "min"
+        };
         let name = format!("{word} {number} in {}", self.place.name);
         let variable = self.add_variable(&name, lower, upper);
         let constraints = pieces.into_iter().map(|piece| self.bounding(&name, piece, &variable, upward)).collect();
