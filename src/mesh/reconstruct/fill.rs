@@ -212,7 +212,11 @@ impl<'a> Filler<'a> {
         let reach = self.original.reach(shorter);
         let known = self.vertices.nearest_neighbor(guess.into()).map(|known| Vector::from(*known.geom()));
         let within = |point: Option<Vector>, by: f64| point.filter(|point| (point - guess).norm() <= by);
-        let places = [within(known, reach), within(self.original.surface.nearest(&guess), reach), within(known, 0.5 * shorter)];
+        let places = [
+            within(known, OWN_SCALE * shorter),
+            within(self.original.surface.nearest(&guess), reach),
+            within(known, 0.5 * shorter),
+        ];
         let fits = |&new: &Vector| {
             // Elsewhere it would come to lie on an edge that is there.
             if self.built.distance(&new) < 0.5 * reach {
