@@ -213,12 +213,15 @@ fn tangents(line: &Line, position: impl Fn(u32) -> Vector) -> Vec<Vector> {
     tangents
 }
 
+/// The cosine of a right angle, less rounding: at the rim of a square tube of one cell neighbouring normals stand at a right angle.
+const RIGHT_ANGLE: f64 = -1e-9;
+
 fn check_continuity(line: &StationLine) -> Result<(), StationError> {
     let mut vertex = NONE;
     for pair in line.stations.windows(2) {
         vertex = if pair[0].vertex == NONE { vertex } else { pair[0].vertex };
         let (a, b) = (&pair[0].frame, &pair[1].frame);
-        if a.z.dot(&b.z) <= 0.0 || a.y.dot(&b.y) <= 0.0 {
+        if a.z.dot(&b.z) < RIGHT_ANGLE || a.y.dot(&b.y) < RIGHT_ANGLE {
             let after = line.stations.iter().find(|station| station.s > pair[0].s && station.vertex != NONE);
             let to = after.map_or(vertex, |station| station.vertex);
             return Err(StationError::Flip { line: line.name.clone(), from: vertex + 1, to: to + 1 });
