@@ -15,6 +15,7 @@
 //! | [`ribs`], [`sections`] | volumes and section properties |
 //! | [`expression`] | parse, differentiate, evaluate |
 //! | [`linear_algebra`] | sparse symmetric factorisation, by a library |
+//! | [`files`] | inputs within limits, outputs whole and never in an input's place |
 //! | [`geometry`], [`splines`], [`math`], [`mesh`] | the note's mathematics, geometry and quad meshes |
 #![warn(missing_docs)]
 
@@ -22,6 +23,7 @@ pub mod backends;
 pub mod certificate;
 pub mod crosscheck;
 pub mod expression;
+pub mod files;
 pub mod geometry;
 pub mod input;
 pub mod linear_algebra;
@@ -30,6 +32,7 @@ pub mod math;
 pub mod mesh;
 pub mod model;
 pub mod problem;
+pub mod recession;
 pub mod report;
 pub mod ribs;
 pub mod run;

@@ -11,12 +11,13 @@ const FLOORS: &[&[&str]] = &[
     &["input", "report", "log"],
     &["crosscheck"],
     &["backends", "certificate"],
+    &["recession"],
     &["model"],
     &["problem"],
     &["ribs", "mesh"],
     &["sections"],
     &["geometry", "splines", "expression"],
-    &["linear_algebra", "math"],
+    &["linear_algebra", "math", "files"],
 ];
 
 /// Arrows between rooms of one floor that the sketch allows.

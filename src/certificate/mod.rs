@@ -2,44 +2,43 @@
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
-mod active_set;
-mod bordered;
 mod candidates;
-mod curvature;
-mod descent;
 mod farkas;
+mod feasibility;
+mod gap;
+mod higher_order;
 mod implied_box;
-mod kkt;
-mod least_squares;
 mod lower_bound;
-mod matrix;
 mod multipliers;
-mod narrow;
-mod normal_equations;
-mod outward;
-mod pieces;
 mod point;
 mod propagation;
-mod reach;
 mod runaway;
-mod small_kkt;
+mod scales;
+mod second_order;
 #[cfg(test)]
 mod tests;
-mod trial;
 mod types;
 mod words;
 
-use curvature::{Active, Curvature, Hessian};
+use feasibility::{Feasibility, worst_violation};
+use std::time::Instant;
+
 use multipliers::Multipliers;
 use point::{Origin, Point};
+use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
+pub use second_order::SecondOrder;
 pub use types::{Certificate, Scope, Side, Tolerances};
 
-/// Certifies `x`. `guess`, a solver's row multipliers, is a first guess and never evidence.
+/// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
+const REFINABLE: f64 = 1e-2;
+
+/// Certifies `x`. `guess`, a solver's row multipliers, is a witness: tried first, and worth what the residuals computed from it
+/// say.
 ///
 /// # Errors
 /// The model has no value or derivative at `x`.
@@ -61,9 +60,16 @@ pub struct Certifier<'a> {
 }
 
 impl<'a> Certifier<'a> {
-    /// Evaluates the gradient at the model's start, once.
+    /// Nothing is evaluated yet.
     pub fn new(model: &'a dyn Model, class: Class, tolerances: Tolerances) -> Self {
         Certifier { origin: Origin::new(model), class, tolerances }
+    }
+
+    /// Searches (for multipliers, for directions) end at that moment, with what they have; a point that would need more is not
+    /// certified.
+    pub fn with_deadline(mut self, until: Option<Instant>) -> Self {
+        self.origin.until = until;
+        self
     }
 
     /// The row multipliers that make `x` as stationary as it allows, without judging it.
@@ -80,13 +86,10 @@ impl<'a> Certifier<'a> {
             && self.certify(x, None).is_ok_and(|certificate| certificate.certified)
     }
 
-    /// max violation_i/s_i over rows and bounds, or what is left of it in the start's measure where it only passes because
-    /// variables have run away; `None` where the model has no value.
+    /// The primal infeasibility of a certificate at `x`; `None` where the model has no value or derivative.
     pub fn primal_infeasibility(&self, x: &[f64]) -> Option<f64> {
         let point = Point::new(&self.origin, x).ok()?;
-        let worst = worst_violation(&point).1;
-        let accepted = self.tolerances.constraint;
-        if worst > accepted { Some(worst) } else { Some(reach::out_of_reach(&point, accepted).unwrap_or(worst)) }
+        Some(feasibility::of(&point, self.tolerances.constraint).infeasibility)
     }
 
     /// Judges `x`; see [`certify`].
@@ -94,9 +97,9 @@ impl<'a> Certifier<'a> {
     /// # Errors
     /// The model has no value or derivative at `x`.
     pub fn certify(&self, x: &[f64], guess: Option<&[f64]>) -> Result<Certificate, EvaluationError> {
-        let point = Point::new(&self.origin, x)?;
-        let multipliers = multipliers::find(&point, guess);
-        let mut certificate = first_order(&point, &multipliers, &self.tolerances);
+        let mut point = Point::new(&self.origin, x)?;
+        let feasibility = feasibility::of(&point, self.tolerances.constraint);
+        let (multipliers, mut certificate) = self.stationarity(&mut point, guess, &feasibility);
         if certificate.dual_infeasibility > self.tolerances.optimality && certificate.is_feasible(&self.tolerances) {
             certificate.dual_infeasibility = beyond_rounding(&point, &multipliers)?;
         }
@@ -106,53 +109,160 @@ impl<'a> Certifier<'a> {
         if lost > self.tolerances.optimality {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
-        certificate.scope = Scope::of(self.class);
-        if certificate.is_feasible(&self.tolerances)
-            && let Some(worst) = reach::out_of_reach(&point, self.tolerances.constraint)
+        if self.is_stationary(&certificate)
+            && let Some(gain) = gap::beyond_the_slope(&point, &multipliers)
         {
-            (certificate.primal_infeasibility, certificate.met_only_far_away) = (worst, true);
+            certificate.complementarity = certificate.complementarity.max(gain);
         }
-        self.second_order(&point, &multipliers, &mut certificate)?;
+        certificate.scope = Scope::of(self.class);
+        self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
+        certificate.variable_scales = point.plain_sizes().to_vec();
         certificate.row_values = point.rows;
-        certificate.variable_scales = point.d;
         Ok(certificate)
+    }
+
+    /// Multipliers and first-order residuals: a witness that passes, refined where that helps, spares the search.
+    fn stationarity(
+        &self,
+        point: &mut Point<'_>,
+        witness: Option<&[f64]>,
+        feasibility: &Feasibility,
+    ) -> (Multipliers, Certificate) {
+        if let Some(offered) = witness.and_then(|witness| multipliers::from_witness(point, witness))
+            && feasibility.infeasibility <= self.tolerances.constraint
+            && let Some(passed) = self.tested(point, offered, feasibility)
+        {
+            return passed;
+        }
+        let found = multipliers::find(point, witness);
+        let mut certificate = self.first_order(point, &found, feasibility);
+        if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
+            point.look_about();
+            certificate = self.first_order(point, &found, feasibility);
+        }
+        (found, certificate)
+    }
+
+    /// A witness with the residuals it leaves, if they pass.
+    fn tested(&self, point: &Point<'_>, offered: Multipliers, feasibility: &Feasibility) -> Option<(Multipliers, Certificate)> {
+        let offered_certificate = self.first_order(point, &offered, feasibility);
+        let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
+        if residual(&offered_certificate) > REFINABLE {
+            return None;
+        }
+        let refined = multipliers::refined(point, &offered).map(|refined| {
+            let certificate = self.first_order(point, &refined, feasibility);
+            (refined, certificate)
+        });
+        let best = match refined {
+            Some(refined) if residual(&refined.1) <= residual(&offered_certificate) => refined,
+            _ => (offered, offered_certificate),
+        };
+        self.is_stationary(&best.1).then_some(best)
     }
 
     /// What first order leaves open: curvature, what lies beyond it, and variables that have run away.
     fn second_order(
         &self,
-        point: &Point<'_>,
+        point: &mut Point<'_>,
         multipliers: &Multipliers,
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
         let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
         if !self.is_stationary(certificate) {
             if certificate.is_feasible(&self.tolerances) {
-                certificate.multipliers_not_unique = curvature::is_dependent(point, &active);
+                certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
             }
             return Ok(());
         }
-        let hessian = Hessian::of(point, multipliers)?;
-        let Curvature { escape, singular, dependent } = curvature::examine(point, &active, &hessian);
-        let bends_down = escape.is_some();
-        // Convex problems have no inflections.
-        let descent = match bends_down || self.class.is_global() {
-            true => None,
-            false => descent::find(point, &active, &hessian, &self.tolerances).unwrap_or_default(),
+        let hessian = self.hessian(point, multipliers)?;
+        let point = &*point;
+        let Curvature { escape, singular, dependent, undecided, flat } =
+            second_order::examine(point, &active, &hessian, self.class.is_global());
+        // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
+        let is_proof = |direction: &Vec<f64>| {
+            !(dependent && self.bends_by_choice(point, multipliers))
+                || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
+        };
+        let bends_down = escape.as_ref().is_some_and(is_proof);
+        let undecided = if escape.is_some() && !bends_down { Some(0) } else { undecided };
+        // Convex problems have no inflections, and need no second order: the first proves.
+        let (undecided, descent) = match escape.is_some() || self.class.is_global() {
+            true => (undecided.filter(|_| !self.class.is_global()), None),
+            false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
         let falls_further = descent.is_some();
         let runaway = match bends_down || falls_further {
             true => Vec::new(),
-            false => runaway::variables(point, &active, &self.tolerances),
+            false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
-        certificate.certified = !bends_down && !falls_further && runaway.is_empty();
+        certificate.certified = !bends_down && !falls_further && undecided.is_none() && runaway.is_empty();
         certificate.escape = escape.or(descent);
         (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
+        certificate.undecided = undecided.filter(|_| !falls_further);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
+    }
+
+    /// The three residuals and the active sides.
+    fn first_order(&self, point: &Point<'_>, multipliers: &Multipliers, feasibility: &Feasibility) -> Certificate {
+        let (meta, sigma) = (point.meta(), point.scale());
+        let (y, z) = (&multipliers.rows, &multipliers.bounds);
+        let touch = self.tolerances.constraint;
+        let row_side = |i: usize| {
+            let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
+            let limit = if (point.rows[i] - lower).abs() < (point.rows[i] - upper).abs() { lower } else { upper };
+            let near = touch * limit.abs().max(point.slopes[i]);
+            point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
+        };
+        let bound_side = |j: usize| {
+            let d = point.sizes[j];
+            point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
+        };
+        Certificate {
+            objective: point.objective,
+            primal_infeasibility: feasibility.infeasibility,
+            met_only_far_away: feasibility.only_far_away,
+            dual_infeasibility: worst_slope(point, multipliers, None).1,
+            complementarity: worst_complementarity(point, multipliers).1,
+            row_sides: (0..meta.rows()).map(row_side).collect(),
+            bound_sides: (0..meta.variables()).map(bound_side).collect(),
+            sigma: point.sigma,
+            ..Certificate::default()
+        }
+    }
+
+    /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
+    fn hessian(&self, point: &mut Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
+        if self.class.is_global() {
+            return Hessian::of(point, multipliers);
+        }
+        point.look_about();
+        let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
+        point.resize_by_curvature(|j| diagonal[j]);
+        Hessian::of(point, multipliers)
+    }
+
+    /// Whether ∇²L depends on the multipliers.
+    fn bends_by_choice(&self, point: &Point<'_>, multipliers: &Multipliers) -> bool {
+        multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
+    }
+
+    /// What the dense, the sparse and the component-wise second-order test say at `x`, whether it is stationary or not: the three
+    /// prove the same in different ways.
+    ///
+    /// # Errors
+    /// The model has no value or derivative at `x`.
+    pub fn second_order_by_every_test(&self, x: &[f64]) -> Result<[SecondOrder; 3], EvaluationError> {
+        let point = Point::new(&self.origin, x)?;
+        let multipliers = multipliers::find(&point, None);
+        let feasibility = feasibility::of(&point, self.tolerances.constraint);
+        let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
+        let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
+        Ok(second_order::by_every_test(&point, &active, &Hessian::of(&point, &multipliers)?))
     }
 
     fn is_stationary(&self, certificate: &Certificate) -> bool {
@@ -160,33 +270,6 @@ impl<'a> Certifier<'a> {
         certificate.is_feasible(&self.tolerances)
             && certificate.dual_infeasibility <= accepted
             && certificate.complementarity <= accepted
-    }
-}
-
-/// The three residuals of SPEC §4 and the active sides.
-fn first_order(point: &Point<'_>, multipliers: &Multipliers, tolerances: &Tolerances) -> Certificate {
-    let (meta, sigma) = (point.meta(), point.scale());
-    let (y, z) = (&multipliers.rows, &multipliers.bounds);
-    let touch = tolerances.constraint;
-    let row_side = |i: usize| {
-        let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
-        let limit = if (point.rows[i] - lower).abs() < (point.rows[i] - upper).abs() { lower } else { upper };
-        let near = touch * limit.abs().max(point.slopes[i]);
-        point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
-    };
-    let bound_side = |j: usize| {
-        let d = point.sizes[j];
-        point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
-    };
-    Certificate {
-        objective: point.objective,
-        primal_infeasibility: worst_violation(point).1,
-        dual_infeasibility: worst_slope(point, multipliers, None).1,
-        complementarity: worst_complementarity(point, multipliers).1,
-        row_sides: (0..meta.rows()).map(row_side).collect(),
-        bound_sides: (0..meta.variables()).map(bound_side).collect(),
-        sigma: point.sigma,
-        ..Certificate::default()
     }
 }
 
@@ -201,13 +284,6 @@ type Worst = (Option<Place>, f64);
 
 fn worse(worst: Worst, next: (Place, f64)) -> Worst {
     if next.1 > worst.1 { (Some(next.0), next.1) } else { worst }
-}
-
-/// The worst relative violation and where.
-fn worst_violation(point: &Point<'_>) -> Worst {
-    let rows = (0..point.rows.len()).map(|i| (Place::Row(i), point.row_violation(i)));
-    let bounds = (0..point.x.len()).map(|j| (Place::Variable(j), point.bound_violation(j)));
-    rows.chain(bounds).fold((None, 0.0), worse)
 }
 
 /// max |∂L/∂x_j|·d_j/σ and where, less what rounding explains.
@@ -226,7 +302,8 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
 /// Dual infeasibility where σ itself may be rounding (a start that is stationary, or the minimum): what the last digits of x make
 /// of ∂L/∂x_j, through the Hessian, does not count.
 fn beyond_rounding(point: &Point<'_>, multipliers: &Multipliers) -> Result<f64, EvaluationError> {
-    let rounding: Vec<f64> = curvature::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
+    let rounding: Vec<f64> =
+        second_order::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
     Ok(worst_slope(point, multipliers, Some(&rounding)).1)
 }
 

@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
-use super::least_squares::{self, Column};
-use super::normal_equations::NormalEquations;
 use super::point::Point;
+use crate::linear_algebra::signed_least_squares::{self, Column, NormalEquations};
 use crate::model::components::Partition;
 
 /// Groups of rows a thread takes at a time, at the least.
@@ -17,6 +16,57 @@ const MANY: usize = 1000;
 pub(super) struct Multipliers {
     pub(super) rows: Vec<f64>,
     pub(super) bounds: Vec<f64>,
+}
+
+/// What a solver's row multipliers say at the point: those of limits within reach and of the right sign are taken as they are,
+/// bounds take up what is left. Evidence only in so far as the sums that prove stationarity are then computed anew.
+pub(super) fn from_witness(point: &Point<'_>, witness: &[f64]) -> Option<Multipliers> {
+    if witness.len() != point.rows.len() || !witness.iter().all(|y| y.is_finite()) {
+        return None;
+    }
+    let usable = |i: usize| {
+        let y = witness[i];
+        let carries = |candidate: Candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0;
+        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(carries) { y } else { 0.0 }
+    };
+    let rows: Vec<f64> = (0..witness.len()).map(usable).collect();
+    let bounds = bound_multipliers(point, &point.row_gradient(&rows));
+    Some(Multipliers { rows, bounds })
+}
+
+/// The same multipliers, moved as little as makes the Lagrangian stationary to the last digits, no sign changed: one least-squares
+/// step over those that are not zero. `None` where that is no gain.
+pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Multipliers> {
+    let mut system = System::default();
+    let mut centre = Vec::new();
+    let scale = point.scale();
+    for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
+        let candidate = candidates::row(point, i).find(|candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0)?;
+        let pattern = &point.meta().jacobian;
+        let entry = |at: usize| {
+            let j = pattern.columns[at];
+            (j, point.jacobian[at] * point.sizes[j as usize] / point.slopes[i])
+        };
+        system.push(candidate, pattern.range(i).map(entry).filter(|entry| entry.1 != 0.0));
+        centre.push(y * point.slopes[i] / scale);
+    }
+    for (j, &z) in multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0) {
+        let candidate = candidates::bounds(point, j).find(|candidate| candidate.sign == 0.0 || candidate.sign * z > 0.0)?;
+        system.push(candidate, std::iter::once((j as u32, 1.0)));
+        centre.push(z * point.sizes[j] / scale);
+    }
+    let gradient: Vec<f64> = point.gradient.iter().zip(&point.sizes).map(|(g, d)| g * d / scale).collect();
+    let found = signed_least_squares::nearest(&gradient, &system.columns(), &centre).ok()?;
+    let mut rows = vec![0.0; multipliers.rows.len()];
+    for (candidate, value) in system.candidates.iter().zip(found) {
+        match candidate.owner {
+            _ if candidate.sign * value < 0.0 => return None,
+            Owner::Row(i) => rows[i] = value * scale / point.slopes[i],
+            Owner::Bound(_) => {}
+        }
+    }
+    let bounds = bound_multipliers(point, &point.row_gradient(&rows));
+    Some(Multipliers { rows, bounds })
 }
 
 /// Minimises ‖D(∇f + Jᵀy + z)/σ‖² plus the squared complementarity terms. A `guess` only says which limits to try first.
@@ -97,6 +147,13 @@ impl System {
         self.columns.clear();
         self.absorbing.clear();
         self.places.clear();
+    }
+
+    /// Adds a candidate with its column.
+    fn push(&mut self, candidate: Candidate, entries: impl Iterator<Item = (u32, f64)>) {
+        self.candidates.push(candidate);
+        self.entries.extend(entries);
+        self.columns.push((self.entries.len(), true));
     }
 
     fn columns(&self) -> Vec<Column<'_>> {
@@ -194,9 +251,10 @@ impl Group<'_> {
         if columns.is_empty() {
             return Vec::new();
         }
+        let until = self.point.origin.until;
         let solved = match many {
-            true => least_squares::solve_one_of_many(&system.gradient, &columns, equations),
-            false => least_squares::solve(&system.gradient, &columns),
+            true => signed_least_squares::solve_one_of_many(&system.gradient, &columns, equations, until),
+            false => signed_least_squares::solve(&system.gradient, &columns, until),
         };
         let scaled = solved.unwrap_or_default();
         let gain = |(candidate, value): (&Candidate, f64)| match candidate.owner {

@@ -1,45 +1,38 @@
 //! Values, derivatives and scales at the point to be judged.
 
+use std::sync::OnceLock;
+use std::time::Instant;
+
+use super::scales;
 use crate::certificate::Side;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 
-/// Less than this share of the largest variable is rounding where the start is zero.
-const NEGLIGIBLE: f64 = 1e-8;
+/// Roundings that the value of a row may hold, in units of the sum of its terms.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// A model with what does not depend on the point: its start's gradient.
+/// A size is changed by this factor at the most: more would be a guess about rounding.
+const RESIZED: f64 = 1e8;
+/// Variables looked at for that, each for one gradient.
+const RESIZABLE: usize = 64;
+
+/// A model ready to have points judged.
 pub(super) struct Origin<'a> {
     pub(super) model: Evaluator<'a>,
-    /// ∇f(start); `None` where the start has no gradient.
-    gradient: Option<Vec<f64>>,
-    /// ‖D∇c_i(start)‖∞; `None` where the start has no Jacobian.
-    pub(super) slopes: Option<Vec<f64>>,
+    /// When searches take what they have.
+    pub(super) until: Option<Instant>,
 }
 
 impl<'a> Origin<'a> {
     pub(super) fn new(model: &'a dyn Model) -> Self {
-        let model = Evaluator::new(model, Budget::default());
-        let start = &model.meta().start;
-        let mut gradient = vec![0.0; start.len()];
-        let known = model.gradient(start, &mut gradient).is_ok();
-        let mut jacobian = vec![0.0; model.meta().jacobian.len()];
-        let has_jacobian = model.jacobian(start, &mut jacobian).is_ok();
-        let sizes: Vec<f64> = start.iter().map(|start| if *start == 0.0 { 1.0 } else { start.abs() }).collect();
-        let slopes = has_jacobian.then(|| slopes(model.meta(), &jacobian, &sizes));
-        Origin { gradient: known.then_some(gradient), slopes, model }
+        Origin { model: Evaluator::new(model, Budget::default()), until: None }
     }
 
     pub(super) fn meta(&self) -> &Meta {
         self.model.meta()
     }
-
-    /// d_j = max(|x_j|, |start_j|), or 1 where both are 0 (SPEC §4).
-    pub(super) fn variable_scales(&self, x: &[f64]) -> Vec<f64> {
-        let scale = |(x, start): (&f64, &f64)| x.abs().max(start.abs());
-        x.iter().zip(&self.meta().start).map(scale).map(|d| if d > 0.0 { d } else { 1.0 }).collect()
-    }
 }
 
-/// First-order information at x, in the user's units, with the scales of SPEC §4.
+/// First-order information at x, in the user's units, with what it is measured by (docs/certificate.md).
 pub(super) struct Point<'a> {
     pub(super) origin: &'a Origin<'a>,
     pub(super) x: &'a [f64],
@@ -48,13 +41,17 @@ pub(super) struct Point<'a> {
     pub(super) rows: Vec<f64>,
     pub(super) jacobian: Vec<f64>,
     /// d_j
-    pub(super) d: Vec<f64>,
-    /// d_j, but 1 for a variable that starts at zero and still is, but for rounding: what is left has no size of its own.
     pub(super) sizes: Vec<f64>,
-    /// max(‖D∇f(x)‖∞, ‖D∇f(start)‖∞)
+    /// d_j as it was before curvature had a say.
+    plain_sizes: Vec<f64>,
+    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::look_about`].
     pub(super) sigma: f64,
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
+    /// max_j |∂c_i/∂x_j·x_j|
+    terms: Vec<f64>,
+    /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
+    mean_slopes: OnceLock<Option<Vec<f64>>>,
 }
 
 impl<'a> Point<'a> {
@@ -67,19 +64,40 @@ impl<'a> Point<'a> {
         origin.model.constraints(x, &mut rows)?;
         let mut jacobian = vec![0.0; meta.jacobian.len()];
         origin.model.jacobian(x, &mut jacobian)?;
-        let d = origin.variable_scales(x);
-        let sizes = sizes(&d, &meta.start);
-        let sigma = largest(&gradient, &d).max(origin.gradient.as_ref().map_or(0.0, |start| largest(start, &d)));
-        let slopes = slopes(meta, &jacobian, &d);
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, d, sizes, sigma, slopes })
+        let sizes = scales::variable_sizes(meta, x, &jacobian);
+        let sigma = largest(&gradient, &sizes);
+        let slopes = slopes(meta, &jacobian, &sizes);
+        let terms = scales::row_terms(meta, x, &jacobian);
+        let (plain_sizes, mean_slopes) = (Vec::new(), OnceLock::new());
+        Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, plain_sizes, sigma, slopes, terms, mean_slopes })
     }
 
-    /// The same with d_j = |x_j| wherever that is not 0: for what happens in proportion.
-    pub(super) fn in_own_sizes(&self) -> Point<'a> {
-        let d: Vec<f64> = self.x.iter().zip(&self.d).map(|(x, &d)| if *x == 0.0 { d } else { x.abs() }).collect();
-        let slopes = slopes(self.meta(), &self.jacobian, &d);
-        let (gradient, rows, jacobian) = (self.gradient.clone(), self.rows.clone(), self.jacobian.clone());
-        Point { sizes: d.clone(), d, slopes, gradient, rows, jacobian, ..*self }
+    /// Where the objective is nearly stationary by itself, its slope at x measures nothing; that about x does.
+    pub(super) fn look_about(&mut self) {
+        self.sigma = self.sigma.max(scales::slope_about(self.origin, self.x, &self.sizes));
+    }
+
+    /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
+    /// one, where it is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the
+    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j²/σ. Others keep theirs.
+    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
+        self.plain_sizes.clone_from(&self.sizes);
+        let mut tried = 0;
+        for (j, size) in self.sizes.iter_mut().enumerate() {
+            let bend = bend(j).abs();
+            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() && tried < RESIZABLE {
+                tried += 1;
+                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * self.sigma / *size) {
+                    *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
+                }
+            }
+        }
+        self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);
+    }
+
+    /// The variables' sizes whatever the curvature.
+    pub(super) fn plain_sizes(&self) -> &[f64] {
+        if self.plain_sizes.is_empty() { &self.sizes } else { &self.plain_sizes }
     }
 
     pub(super) fn meta(&self) -> &'a Meta {
@@ -107,14 +125,40 @@ impl<'a> Point<'a> {
         if self.sigma > 0.0 { self.sigma } else { 1.0 }
     }
 
-    /// Relative violation of row i: violation/s_i with s_i = max(|limit|, ‖D∇c_i‖∞).
+    /// Relative violation of row i: what rounding does not explain, over max(|limit|, the row's largest term).
     pub(super) fn row_violation(&self, i: usize) -> f64 {
-        relative_violation(self.rows[i], self.meta().row_lower[i], self.meta().row_upper[i], self.slopes[i])
+        let (violation, limit) = self.row_excess(i);
+        if violation <= 0.0 {
+            return 0.0;
+        }
+        let terms = self.row_term(i);
+        let rounding = ROUNDINGS * (limit.abs() + terms * self.meta().jacobian.row(i).len() as f64);
+        if violation <= rounding {
+            return 0.0;
+        }
+        (violation / limit.abs().max(terms).max(f64::MIN_POSITIVE)).min(f64::MAX)
+    }
+
+    /// By how much row i lies beyond the limit it violates, and that limit.
+    pub(super) fn row_excess(&self, i: usize) -> (f64, f64) {
+        let (value, lower, upper) = (self.rows[i], self.meta().row_lower[i], self.meta().row_upper[i]);
+        if value < lower { (lower - value, lower) } else { (value - upper, upper) }
+    }
+
+    /// The largest term of row i. Of a row that is not linear, derivatives without end say nothing: its term is no larger than
+    /// the mean slope over a finite step.
+    pub(super) fn row_term(&self, i: usize) -> f64 {
+        let term = self.terms[i];
+        if term == 0.0 || self.meta().row_is_linear.get(i).copied().unwrap_or(false) {
+            return term;
+        }
+        let mean = self.mean_slopes.get_or_init(|| scales::mean_slopes(self.origin, self.x, &self.rows));
+        mean.as_ref().map_or(term, |mean| term.min(mean[i]))
     }
 
     /// Relative violation of the bounds of variable j: violation/d_j.
     pub(super) fn bound_violation(&self, j: usize) -> f64 {
-        (self.meta().lower[j] - self.x[j]).max(self.x[j] - self.meta().upper[j]).max(0.0) / self.d[j]
+        (self.meta().lower[j] - self.x[j]).max(self.x[j] - self.meta().upper[j]).max(0.0) / self.sizes[j]
     }
 
     /// ∇f + Jᵀy
@@ -161,16 +205,6 @@ pub(super) fn side(value: f64, lower: f64, upper: f64, multiplier: f64, touch: f
         (false, true) => Side::Upper,
         (false, false) => Side::None,
     }
-}
-
-fn relative_violation(value: f64, lower: f64, upper: f64, slope: f64) -> f64 {
-    let (violation, limit) = if value < lower { (lower - value, lower) } else { (value - upper, upper) };
-    if violation > 0.0 { (violation / limit.abs().max(slope).max(f64::MIN_POSITIVE)).min(f64::MAX) } else { 0.0 }
-}
-
-fn sizes(d: &[f64], start: &[f64]) -> Vec<f64> {
-    let negligible = NEGLIGIBLE * d.iter().fold(0.0, |most: f64, d| most.max(*d));
-    d.iter().zip(start).map(|(&d, &start)| if start == 0.0 && d < negligible { 1.0 } else { d }).collect()
 }
 
 fn largest(gradient: &[f64], d: &[f64]) -> f64 {

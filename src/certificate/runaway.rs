@@ -1,46 +1,119 @@
-//! Variables that have run away: the point passes only because the objective flattens out far from the start, and would go on
-//! falling for ever (exp(x) towards −∞). Such an infimum is not attained.
+//! Variables that run away: the point passes only because the objective flattens out, and would go on falling for ever (exp(x)
+//! towards −∞), or because a term has no value at the bound it falls towards. Such an infimum is not attained.
 
-use super::Tolerances;
-use super::curvature::Active;
-use super::outward;
+use super::feasibility::worst_violation;
+use super::higher_order::Trial;
 use super::point::Point;
-use super::trial::Trial;
+use super::second_order::{Active, Choice, Hessian, Kkt};
+use super::{Class, Tolerances};
 use crate::model::{EvaluationError, Model};
+use crate::recession::{Site, Valley};
 
-/// Single variables tried at the most, and their number times that of all variables.
-const TRIED: usize = 32;
-const WORK: usize = 1_000_000;
+/// Directions that bend by less than this, in units of σ, are looked at.
+const FLAT: f64 = 1e-3;
+const DIRECTIONS: usize = 12;
+/// Variables followed at the most.
+const FOLLOWED: usize = 12;
+/// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
+/// matrices of order N takes N³ operations, and some thousand steps are taken.
+const LARGEST: usize = 120;
+/// Above this order, flat directions are those of single variables.
+const LARGEST_FOR_DIRECTIONS: usize = 2_000;
 
-/// Nothing of a size of one belongs this far away.
-const BEYOND: f64 = 1e30;
-
-/// How far on the point is followed, in ways from the start.
-const ONWARDS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
-/// And where everything is level there: what is only flat rises in the end.
-const FAR_ON: [f64; 4] = [1e4, 1e8, 1e16, 1e32];
-/// Half-way back, an asymptote has risen by this share at the most of all it rises on the way to the start.
-const ASYMPTOTE: f64 = 1e-2;
-
-/// The variables along whose way from the start the objective still falls, however far one goes; empty at a true minimum.
-pub(super) fn variables(point: &Point<'_>, active: &Active<'_>, tolerances: &Tolerances) -> Vec<usize> {
-    let ray = Ray { point, active, tolerance: tolerances.constraint };
-    let mut far: Vec<(f64, usize)> = (0..point.x.len()).filter_map(|j| travelled(point, j).map(|way| (way, j))).collect();
-    far.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let tried = TRIED.min(WORK / (point.x.len() + 1)).max(1);
-    let all: Vec<usize> = far.iter().map(|&(_, j)| j).collect();
-    let mut found: Vec<usize> =
-        far.iter().take(tried).filter(|&&(way, j)| is_beyond(point, way, j) || ray.runs_off(&[j])).map(|f| f.1).collect();
-    if found.is_empty() && all.len() > 1 && ray.runs_off(&all) {
-        found = all;
+/// The variables along whose way the objective falls, however far one goes; empty at a true minimum. A linear problem that has a
+/// bound attains it (fundamental theorem of linear programming).
+pub(super) fn variables(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    class: Class,
+    tolerances: &Tolerances,
+) -> Vec<usize> {
+    if class == Class::Linear {
+        return Vec::new();
     }
-    if found.is_empty() {
-        found = outward::variables(point, active, &far, tolerances);
+    let choice = Choice::all(point, active);
+    let directions = directions(point, hessian, &choice);
+    let follows = choice.free.len() + choice.held.len() <= LARGEST;
+    let is_feasible =
+        |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
+    let held = |rows: Vec<usize>| -> Vec<(usize, f64)> {
+        rows.into_iter().map(|i| (i, resting_limit(point, i))).filter(|held| held.1.is_finite()).collect()
+    };
+    let runs_off = |free: &[usize], held: &[(usize, f64)]| {
+        let site = Site {
+            model: &point.origin.model,
+            x: point.x,
+            sizes: point.plain_sizes(),
+            free,
+            held,
+            multipliers: &active.multipliers.rows,
+            is_feasible: &is_feasible,
+        };
+        let valley = Valley::new(site);
+        let both = directions
+            .iter()
+            .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
+        both.into_iter().find(|direction| valley.runs_off(direction))
+    };
+    let found = if follows {
+        // Far out, multipliers may be too small to tell which rows push.
+        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
+        runs_off(&free, &strict).or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
+    } else {
+        runs_off(&[], &[])
+    };
+    match found {
+        Some(direction) => moving(point, &direction),
+        None => towards_bounds(point, tolerances.constraint),
     }
-    if found.is_empty() {
-        found = towards_bounds(point, tolerances.constraint);
+}
+
+/// The limit row i is nearest to.
+fn resting_limit(point: &Point<'_>, i: usize) -> f64 {
+    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
+    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
+}
+
+/// The variables that take part in a direction.
+fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
+    let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
+    let most = (0..direction.len()).map(share).fold(0.0, f64::max);
+    (0..direction.len()).filter(|&j| share(j) > 1e-3 * most).collect()
+}
+
+/// Flat directions, each as it is and its variables that move most one by one; then the ways that have led here, from the start
+/// and from zero.
+fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<f64>> {
+    let meta = point.meta();
+    let is_open = |&j: &usize| meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY;
+    let (mut found, mut axes) = (Vec::new(), Vec::new());
+    if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
+        let (free, held) = (choice.loose_variables(), choice.strict_rows());
+        let flat = Kkt::new(point, hessian, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        for direction in flat.unwrap_or_default() {
+            let share = |j: &usize| (direction[*j] / point.sizes[*j]).abs();
+            let mut open: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
+            open.sort_by(|a, b| share(b).total_cmp(&share(a)));
+            axes.extend(open.into_iter().take(2));
+            found.push(direction);
+        }
+        if !found.is_empty() {
+            found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
+            found.push(point.x.to_vec());
+        }
+    } else {
+        let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
+        flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));
+        axes.extend(flat);
     }
-    found.sort_unstable();
+    let mut seen = std::collections::HashSet::new();
+    axes.retain(|j| seen.insert(*j));
+    found.extend(axes.into_iter().take(FOLLOWED).map(|j| {
+        let mut axis = vec![0.0; meta.variables()];
+        axis[j] = point.plain_sizes()[j];
+        axis
+    }));
     found
 }
 
@@ -51,8 +124,7 @@ fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
     let near = |j: usize| {
         let x = point.x[j];
         let bound = if x - meta.lower[j] <= meta.upper[j] - x { meta.lower[j] } else { meta.upper[j] };
-        let size = bound.abs().max(meta.start[j].abs());
-        let size = if size > 0.0 { size } else { 1.0 };
+        let size = bound.abs().max(point.sizes[j]);
         (x != bound && (x - bound).abs() <= 1e-8 * size).then_some((j, bound))
     };
     let near: Vec<(usize, f64)> = (0..point.x.len()).filter_map(near).collect();
@@ -70,95 +142,9 @@ fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
         return Vec::new();
     }
     let level = 64.0 * f64::EPSILON * point.objective.abs();
-    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(|share| value(share).is_some_and(|f| f <= point.objective + level));
+    // So near that no number lies between: as near as the bound itself.
+    let has_arrived = |share: f64| near.iter().all(|&(j, bound)| bound + share * (point.x[j] - bound) == bound);
+    let stays = |share: f64| has_arrived(share) || value(share).is_some_and(|f| f <= point.objective + level);
+    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(stays);
     if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
-}
-
-/// So far out, and far from where anything is of a size of one, that what lies further on overflows.
-fn is_beyond(point: &Point<'_>, way: f64, j: usize) -> bool {
-    way > BEYOND && point.x[j].abs() > BEYOND
-}
-
-/// How many times its own size variable j has moved towards an open bound; `None` where it has not gone far.
-fn travelled(point: &Point<'_>, j: usize) -> Option<f64> {
-    let (meta, x) = (point.meta(), point.x[j]);
-    let moved = x - meta.start[j];
-    let open = if moved > 0.0 { meta.upper[j] == f64::INFINITY } else { meta.lower[j] == f64::NEG_INFINITY };
-    let size = if meta.start[j] == 0.0 { 1.0 } else { meta.start[j].abs() };
-    (open && moved.abs() > 2.0 * size).then_some(moved.abs() / size)
-}
-
-/// The line some variables have come along from the start, the others held.
-struct Ray<'r, 'p> {
-    point: &'r Point<'p>,
-    active: &'r Active<'r>,
-    tolerance: f64,
-}
-
-impl Ray<'_, '_> {
-    fn place(&self, variables: &[usize], factor: f64) -> Vec<f64> {
-        let mut x = self.point.x.to_vec();
-        for &j in variables {
-            x[j] += factor * (self.point.x[j] - self.point.meta().start[j]);
-        }
-        x
-    }
-
-    /// f and its noise, where the point further on meets every row as well as the judged point may.
-    fn onwards(&self, variables: &[usize], factor: f64) -> Option<(f64, f64)> {
-        let x = self.place(variables, factor);
-        let trial = Trial::at(self.point, &x)?;
-        trial.is_feasible(self.point, self.tolerance).then(|| (trial.objective, self.noise(variables, &x, trial.objective)))
-    }
-
-    /// What the last digits of x make of f: sums that cancel hide more than the last digits of f.
-    fn noise(&self, variables: &[usize], x: &[f64], objective: f64) -> f64 {
-        let beside = |digits: f64| {
-            let mut x = x.to_vec();
-            variables.iter().for_each(|&j| x[j] *= 1.0 + digits * f64::EPSILON);
-            self.point.origin.model.objective(&x).map_or(0.0, |value| (value - objective).abs())
-        };
-        [-5.0, -2.0, 2.0, 3.0, 7.0].into_iter().map(beside).fold(0.0, f64::max)
-    }
-
-    /// Moves the variables on, away from the start, 10 % to 100 times as far again: the objective must never rise and fall on the
-    /// whole, beyond rounding; or be level to the last digit as far as one can see, after a way that levels out.
-    fn runs_off(&self, variables: &[usize]) -> bool {
-        let here = self.point.objective;
-        let (mut last, mut blurred) = (here, self.noise(variables, self.point.x, here));
-        for factor in ONWARDS {
-            match self.onwards(variables, factor) {
-                Some((next, noise)) if next <= last + noise + blurred => (last, blurred) = (next.min(last), noise),
-                _ => return false,
-            }
-        }
-        let level = 64.0 * f64::EPSILON * here.abs();
-        here - last > level + blurred || (self.stays_level(variables, here + level) && self.has_levelled_out(variables))
-    }
-
-    fn stays_level(&self, variables: &[usize], most: f64) -> bool {
-        FAR_ON.into_iter().map_while(|factor| self.onwards(variables, factor)).all(|(value, noise)| value <= most + noise)
-    }
-
-    /// Whether the Lagrangian, going back to the start, never falls and rises in the end, nearly all of it far back: a function
-    /// that is level and not piecewise is level throughout, so this one nears an asymptote.
-    fn has_levelled_out(&self, variables: &[usize]) -> bool {
-        let (point, multipliers) = (self.point, self.active.multipliers);
-        let value = |factor: f64| {
-            let x = self.place(variables, factor);
-            Trial::at(point, &x).map(|trial| (trial.lagrangian(point, multipliers), trial.rounding(point, multipliers)))
-        };
-        let Some((here, level)) = value(0.0) else { return false };
-        let Some((half, _)) = value(-0.5) else { return false };
-        let (mut last, mut remaining) = (half, 0.1);
-        for _ in 0..BEYOND.log10() as i32 {
-            let Some((next, rounding)) = value(remaining - 1.0) else { break };
-            if next < last - rounding.max(level) {
-                return false;
-            }
-            last = last.max(next);
-            remaining *= 0.1;
-        }
-        last - here > level && half - here <= ASYMPTOTE * (last - here)
-    }
 }

@@ -74,8 +74,11 @@ pub struct Certificate {
     pub dual_infeasibility: f64,
     /// Σ|multiplier|·|distance to its limit|/σ, violations and bounds included.
     pub complementarity: f64,
-    /// The Lagrangian bends down on the null space of the active rows and bounds, beyond rounding.
+    /// The Lagrangian bends down along a direction of the critical cone, beyond rounding.
     pub negative_curvature: bool,
+    /// Neither is proved, that it bends up on the critical cone nor that it bends down: at so many weakly active limits; 0 where
+    /// the multipliers, one choice of many, decide.
+    pub undecided: Option<usize>,
     /// Flat to second order along a direction, the objective falls further along it: an inflection, no minimum.
     pub falls_further: bool,
     /// The rows are met only in the measure of variables that have grown large, and by no point beside this one.

@@ -4,6 +4,10 @@ use super::multipliers::Multipliers;
 use super::point::Point;
 use super::{Certificate, Place, Tolerances, worst_violation};
 
+/// Variables that change by less than this share of the largest relative change are not named, nor more than so many.
+const NAMED: f64 = 0.01;
+const MOST_NAMED: usize = 6;
+
 /// One sentence per failed test, naming the variable or row; then remarks.
 pub(super) fn messages(
     point: &Point<'_>,
@@ -29,11 +33,19 @@ pub(super) fn messages(
             certificate.complementarity, tolerances.optimality
         ));
     }
+    let along = certificate.escape.as_ref().map_or(String::new(), |escape| format!(" ({})", direction(point, escape)));
     if certificate.negative_curvature {
-        all.push("the point is stationary, but no minimum: along a direction the limits allow, the objective bends down".into());
+        all.push(format!(
+            "the point is stationary, but no minimum: along a direction the limits allow{along}, the objective bends down"
+        ));
     }
     if certificate.falls_further {
-        all.push("the point is stationary, but no minimum: flat to second order, the objective falls further along a direction the limits allow".into());
+        all.push(format!("the point is stationary, but no minimum: flat to second order, the objective falls further along a direction the limits allow{along}"));
+    }
+    match certificate.undecided {
+        Some(0) => all.push("second-order conditions are not proved: the multipliers found bend the Lagrangian down, but they are one choice of many, and no lower point was found".into()),
+        Some(limits) => all.push(format!("second-order conditions hold as far as tested, not proved at {limits} weakly active limits")),
+        None => {}
     }
     if !certificate.runaway.is_empty() {
         let names = list(certificate.runaway.iter().map(|&j| point.variable(j)));
@@ -85,6 +97,19 @@ fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate
         );
     }
     text
+}
+
+/// The largest entries of a direction of length one: `x +0.71, y −0.71`.
+fn direction(point: &Point<'_>, direction: &[f64]) -> String {
+    let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let relative = |j: usize| (direction[j] / point.sizes[j]).abs();
+    let mut largest: Vec<usize> = (0..direction.len()).filter(|&j| direction[j] != 0.0).collect();
+    largest.sort_by(|&a, &b| relative(b).total_cmp(&relative(a)).then(a.cmp(&b)));
+    let most = largest.first().map_or(0.0, |&j| relative(j));
+    largest.retain(|&j| relative(j) >= NAMED * most);
+    let more = if largest.len() > MOST_NAMED { ", …" } else { "" };
+    let entry = |&j: &usize| format!("{} {:+.2}", point.variable(j), direction[j] / length);
+    largest.iter().take(MOST_NAMED).map(entry).collect::<Vec<_>>().join(", ") + more
 }
 
 /// `a`, `a and b`, `a, b and c`; long lists are cut.

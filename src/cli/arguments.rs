@@ -26,6 +26,21 @@ Exit codes:
   5  a limit was reached or the run was interrupted
   6  the model gave a value that is no number";
 
+const EXAMPLES: &str = "\
+Examples:
+  ribs          most of the file (the default)
+  rectangle, h-beam, i-section, tee, channel, angle, box, circle, tube, superellipse, polygon, polyline
+                one kind of section each
+  profile       dimensions that follow a B-spline along a line of ribs
+  load-cases    arrays of moments and forces, one row per load case
+  expressions   variables and expressions without any rib
+
+Reference, in the folder docs of the source:
+  expressions.md    names, operators, functions, arrays, sums over ribs and sections
+  problem-file.md   every table and key of the file, CSV tables, --set
+  section-kinds.md  dimensions and properties of every kind
+  outputs.md        every file a run leaves, column by column, and result.json";
+
 const SECTION_EXAMPLES: &str = "\
 Examples:
   ribopt section rib.toml support midspan --svg sections.svg
@@ -50,8 +65,9 @@ pub enum Command {
     #[command(after_help = SECTION_EXAMPLES)]
     Section(Section),
     /// A commented example file on standard output
+    #[command(after_help = EXAMPLES)]
     New {
-        /// Kind of section the example is about; without it, an example that shows most of the file
+        /// What the example is about; without it, an example that shows most of the file
         kind: Option<String>,
     },
     /// From a quad rib mesh to a problem folder: check, reconstruct, smooth, trace, slice, ribs, new
@@ -65,7 +81,7 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct Solve {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or - for standard input
     pub file: PathBuf,
     /// Use this backend only (repeat for several); default: those of the file, or all that are built in
     #[arg(long = "backend", value_name = "NAME", value_parser = ["nlopt", "argmin"])]
@@ -105,7 +121,7 @@ pub struct Solve {
 /// Changes to the file's numbers for this run.
 #[derive(Debug, Args, Default)]
 pub struct Changes {
-    /// Change a number of the file for this run: VARIABLE.lower=, .upper=, .start= or PARAMETER= (repeatable)
+    /// Change a number of the file for this run (repeatable): PARAMETER=, VARIABLE= (fixes it), VARIABLE.lower=, .upper=, .start=
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
 }
@@ -236,6 +252,14 @@ mod tests {
     #[test]
     fn the_definition_holds_together() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn help_lists_every_example() {
+        let listed = |name: &str| EXAMPLES.split([' ', ',', '\n']).any(|word| word == name);
+        for name in ribopt::input::examples() {
+            assert!(listed(name), "{name}");
+        }
     }
 
     #[test]

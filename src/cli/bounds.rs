@@ -14,7 +14,8 @@ pub fn run(arguments: &Bounds) -> Result<u8, Failure> {
     output::tell(&subject.warnings);
     let choices = choice::choose(&[], None, &subject.settings)?;
     let test = bounds(&subject, &choices, Some(interrupt::flag()));
-    let (about, rows) = (&subject.about, subject.model().meta().rows());
+    interrupt::release();
+    let (about, rows) = (&subject.about, subject.shown().meta().rows());
     output::print(|out| {
         writeln!(out, "{} ({}), only bounds remain ({} left out)", about.title, about.file, report::text::count(rows, "row"))?;
         writeln!(out, "{}: {}\n", test.outcome.status.as_str(), test.outcome.message)?;
@@ -23,5 +24,5 @@ pub fn run(arguments: &Bounds) -> Result<u8, Failure> {
             Err(error) => writeln!(out, "no gradient where the variables ended: {error}"),
         }
     })?;
-    Ok(test.exit_code(arguments.strict))
+    Ok(interrupt::code(test.exit_code(arguments.strict)))
 }

@@ -11,7 +11,7 @@ use ribopt::model::EvaluationError;
 use ribopt::model::derivative_check::DerivativeCheck;
 use ribopt::report::number::short;
 use ribopt::report::result::write_value;
-use ribopt::report::text::count;
+use ribopt::report::text::{count, listing};
 use ribopt::run::{Subject, check::check};
 
 /// Reads, validates, compares derivatives; exit code 1 where one disagrees or there is no value.
@@ -26,7 +26,7 @@ pub fn run(arguments: &Check) -> Result<u8, Failure> {
     output::print(|out| {
         sizes(&subject, out)?;
         match &result {
-            Ok(check) => derivatives(check, out),
+            Ok(check) => derivatives(check, &subject, out),
             Err(error) => writeln!(out, "derivatives: no value at the start: {error}"),
         }
     })?;
@@ -65,7 +65,7 @@ struct Derivatives {
 
 impl<'a> Found<'a> {
     fn of(subject: &'a Subject, check: Option<&DerivativeCheck>) -> Self {
-        let (about, meta) = (&subject.about, subject.model().meta());
+        let (about, meta) = (&subject.about, subject.shown().meta());
         Found {
             file: &about.file,
             title: &about.title,
@@ -80,7 +80,7 @@ impl<'a> Found<'a> {
 }
 
 fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
-    let (about, meta) = (&subject.about, subject.model().meta());
+    let (about, meta) = (&subject.about, subject.shown().meta());
     let equalities = (0..meta.rows()).filter(|&i| meta.row_lower[i] == meta.row_upper[i]).count();
     let linear = meta.row_is_linear.iter().filter(|&&linear| linear).count();
     let fixed = (0..meta.variables()).filter(|&j| meta.lower[j] == meta.upper[j]).count();
@@ -97,7 +97,7 @@ fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "entries: {jacobian} in the Jacobian, {hessian} in the Hessian's lower triangle")
 }
 
-fn derivatives(check: &DerivativeCheck, out: &mut dyn Write) -> io::Result<()> {
+fn derivatives(check: &DerivativeCheck, subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
     let (looked_at, all) = check.variables;
     writeln!(
         out,
@@ -106,5 +106,16 @@ fn derivatives(check: &DerivativeCheck, out: &mut dyn Write) -> io::Result<()> {
     )?;
     let Some(worst) = &check.worst else { return Ok(()) };
     let (exact, numeric, error) = (short(worst.exact), short(worst.numeric), short(worst.error));
-    writeln!(out, "worst: {}: exact {exact}, by differences {numeric}, relative error {error}", worst.name)
+    writeln!(out, "worst: {}: exact {exact}, by differences {numeric}, relative error {error}", worst.name)?;
+    let kinks = subject.problem().kinks();
+    if check.disagreements > 0 && !kinks.is_empty() {
+        writeln!(
+            out,
+            "there are kinks left in {}: where the arguments of a max or min meet, or the one of an abs is 0, there is no derivative,\n\
+             and differences across such a place do not agree with the exact ones on either side. This is no mistake of the file;\n\
+             a bound (a new variable t with t >= every argument) in place of the max makes it smooth.",
+            listing(kinks.into_iter(), 5)
+        )?;
+    }
+    Ok(())
 }

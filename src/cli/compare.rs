@@ -7,9 +7,10 @@ use std::path::Path;
 use super::arguments::Compare;
 use super::failure::Failure;
 use super::{interrupt, output};
+use ribopt::files::whole;
 use ribopt::report::comparison::{self, Trial};
-use ribopt::report::{result::write_value, svg, whole_file};
-use ribopt::run::{Subject, compare::compare};
+use ribopt::report::{result::write_value, svg};
+use ribopt::run::{RunError, Subject, compare::compare};
 
 /// Compares all solvers on all files. All files are read first: a mistake in one is told before anything is run.
 pub fn run(arguments: &Compare) -> Result<u8, Failure> {
@@ -19,6 +20,9 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
         Ok::<_, Failure>(subject)
     };
     let subjects = arguments.files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    if let Some(folder) = &arguments.profile {
+        spare_inputs(&subjects, folder)?;
+    }
     let interrupt = interrupt::flag();
     let mut trials = Vec::new();
     for subject in &subjects {
@@ -30,6 +34,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
         }
         trials.extend(of_file);
     }
+    interrupt::release();
     if arguments.json {
         output::print(|out| write_value(&trials, out))?;
     }
@@ -38,17 +43,27 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
             Failure::Request(format!("cannot write to {}: {error}; choose another folder with --profile", folder.display()))
         })?;
     }
-    Ok(0)
+    Ok(interrupt::code(0))
+}
+
+/// No file of a profile takes the place of a problem or its tables.
+fn spare_inputs(subjects: &[Subject], folder: &Path) -> Result<(), RunError> {
+    let names =
+        ["compare.csv", "profile-evaluations.csv", "profile-evaluations.svg", "profile-seconds.csv", "profile-seconds.svg"];
+    for subject in subjects {
+        subject.inputs.spare(names.map(|name| folder.join(name)))?;
+    }
+    Ok(())
 }
 
 /// `compare.csv`, `profile-evaluations.csv`, `….svg`, `profile-seconds.csv`, `….svg`.
 fn leave_profiles(trials: &[Trial], folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    whole_file::write(&folder.join("compare.csv"), |out| comparison::write_csv(trials, out))?;
+    whole::write(&folder.join("compare.csv"), |out| comparison::write_csv(trials, out))?;
     for profile in comparison::profiles(trials) {
         let stem = format!("profile-{}", profile.measure);
-        whole_file::write(&folder.join(format!("{stem}.csv")), |out| profile.write_csv(out))?;
-        whole_file::write(&folder.join(format!("{stem}.svg")), |out| out.write_all(svg::draw(&profile).as_bytes()))?;
+        whole::write(&folder.join(format!("{stem}.csv")), |out| profile.write_csv(out))?;
+        whole::write(&folder.join(format!("{stem}.svg")), |out| out.write_all(svg::draw(&profile).as_bytes()))?;
     }
     Ok(())
 }

@@ -20,7 +20,18 @@ pub fn install() {
     let _ = ctrlc::set_handler(handler);
 }
 
-/// The flag Ctrl-C sets, from now on watched by a run.
+/// Nothing watches for Ctrl-C any more: the next one ends the process.
+pub fn release() {
+    WATCHED.store(false, Ordering::SeqCst);
+}
+
+/// The exit code of a command, or that of an interrupted one where Ctrl-C came in between.
+pub fn code(otherwise: u8) -> u8 {
+    if INTERRUPTED.load(Ordering::SeqCst) { EXIT_INTERRUPTED as u8 } else { otherwise }
+}
+
+/// The flag Ctrl-C sets, from now on watched by a run. To be called when everything is read: what waits for a file or a
+/// terminal looks at no flag.
 pub fn flag() -> &'static AtomicBool {
     WATCHED.store(true, Ordering::SeqCst);
     &INTERRUPTED

@@ -5,6 +5,8 @@ use std::time::Instant;
 use super::arguments::Solve;
 use super::failure::Failure;
 use super::{interrupt, live_table, output, reading};
+use ribopt::files::Inputs;
+use ribopt::report::answer::EarlierAnswer;
 use ribopt::report::number::short;
 use ribopt::report::text::count;
 use ribopt::report::{result, summary};
@@ -14,21 +16,24 @@ use ribopt::run::{RunError, Subject, Watcher, choice};
 
 /// Solves, shows what was found and returns the exit code.
 pub fn run(arguments: &Solve) -> Result<u8, Failure> {
-    let (begun, interrupt) = (Instant::now(), interrupt::flag());
+    let begun = Instant::now();
     let mut subject = reading::read(&arguments.file, &arguments.changes.set, arguments.quiet)?;
     arguments.limits.apply(&mut subject.settings);
     // The limit is on the whole command, reading included.
     let settings = &mut subject.settings;
     settings.max_seconds = (settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
     output::tell(&subject.warnings);
+    let start = arguments.start.as_deref().map(EarlierAnswer::read).transpose().map_err(RunError::from)?;
+    let inputs = inputs(arguments, &subject)?;
     let network = network(arguments, &subject)?;
     let request = Request {
         choices: choice::choose(&arguments.backends, arguments.algorithm.as_deref(), &subject.settings)?,
         out: arguments.out.as_deref(),
-        start: arguments.start.as_deref(),
+        start: start.as_ref(),
+        inputs: &inputs,
         starts: arguments.starts as usize,
         plot: arguments.plot,
-        interrupt: Some(interrupt),
+        interrupt: Some(interrupt::flag()),
     };
     let mut table = live_table::on_terminal(arguments.quiet);
     let watcher: &mut dyn Watcher = match &mut table {
@@ -36,13 +41,29 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
         None => &mut (),
     };
     let solved = solve(&subject, &request, watcher)?;
+    interrupt::release();
     let new_warnings = solved.about.warnings.get(subject.about.warnings.len()..).unwrap_or_default();
     output::warn(new_warnings);
     show(arguments, &subject, &solved)?;
+    // The answer was shown: only now what went wrong besides.
+    if let Some(error) = solved.unwritten {
+        return Err(error.into());
+    }
     if let Some(network) = network {
         draw(arguments, &subject, &solved, &network)?;
     }
     Ok(solved.outcome.exit_code())
+}
+
+/// Everything that is read, none of which an output may take the place of.
+fn inputs(arguments: &Solve, subject: &Subject) -> Result<Inputs, RunError> {
+    let mut inputs = subject.inputs.clone();
+    arguments.start.iter().for_each(|start| inputs.add(start));
+    inputs.add(&arguments.file.with_file_name(network::GEOMETRY));
+    for out in &arguments.solids {
+        inputs.spare([out.clone(), out.with_extension("csv"), out.with_extension("json")])?;
+    }
+    Ok(inputs)
 }
 
 fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Failure> {
@@ -55,7 +76,10 @@ fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Fai
     }
     output::print(|out| {
         summary::write(&findings, out)?;
-        writeln!(out, "logs and results: {}", solved.folder().display())
+        match &solved.unwritten {
+            None => writeln!(out, "logs and results: {}", solved.folder().display()),
+            Some(_) => Ok(()),
+        }
     })
 }
 

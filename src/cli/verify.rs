@@ -6,6 +6,7 @@ use super::{output, reading};
 use ribopt::crosscheck::Status;
 use ribopt::report::{Findings, result, summary};
 use ribopt::run::verify::verify;
+use ribopt::run::{sizes, utilisation};
 
 /// Certifies a point and returns the exit code: 0 certified, 1 not.
 pub fn run(arguments: &Verify) -> Result<u8, Failure> {
@@ -14,8 +15,9 @@ pub fn run(arguments: &Verify) -> Result<u8, Failure> {
     output::tell(&subject.warnings);
     let outcome = verify(&subject, &arguments.answer)?;
     let volumes = subject.volumes(&outcome.x);
-    let (about, model, class) = (&subject.about, subject.model(), subject.class);
-    let findings = Findings { about, model, class, outcome: &outcome, volumes };
+    let (mass, utilisation) = (sizes::mass(subject.problem(), &outcome.x), utilisation::table(&subject, &outcome.x).ok());
+    let (about, model, class) = (&subject.about, subject.shown(), subject.class);
+    let findings = Findings { about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     output::print(|out| if arguments.json { result::write(&findings, out) } else { summary::write(&findings, out) })?;
     Ok(u8::from(outcome.status != Status::Certified))
 }

@@ -78,6 +78,9 @@ impl<'a> Session<'a> {
         budget: Budget<'_>,
         observer: &mut dyn FnMut(&Iteration<'_>),
     ) -> Answer {
+        let mut start = start.to_vec();
+        self.task.model.complete(&mut start);
+        let start = start.as_slice();
         let Some(other) = self.task.substitution else {
             let stop = |x: &[f64]| self.strict.accepts(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
@@ -157,6 +160,7 @@ impl<'a> Session<'a> {
     }
 
     fn judged(&self, solver: Solver<'_>, mut solution: Solution) -> Answer {
+        self.task.model.complete(&mut solution.x);
         let gave_way = solution.termination == Termination::LimitReached && !self.is_at_users_limit(&solution);
         if gave_way {
             solution.message = format!("its share of the work ended before it did ({} evaluations)", solution.evaluations);

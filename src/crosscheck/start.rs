@@ -18,8 +18,9 @@ pub struct MovedStart {
 pub(super) fn in_domain(task: &Task<'_>) -> Option<MovedStart> {
     let (model, start) = (task.model, task.start);
     let error = domain::values(model, start).err()?;
-    let x = domain::valid_near(model, start).ok()?;
-    let moved = (0..x.len()).filter(|&j| x[j] != start[j]);
+    let mut x = domain::valid_near(model, start).ok()?;
+    model.complete(&mut x);
+    let moved = (0..model.own().variables).filter(|&j| x[j] != start[j]);
     let moves: Vec<String> = moved.map(|j| format!("{} from {} to {:.6}", model.variable_name(j), start[j], x[j])).collect();
     let remark = format!(
         "the start is outside the domain ({error}); it was moved to a point where everything has a value: {}",

@@ -63,8 +63,9 @@ pub(super) fn infeasible(
     session: &Session<'_>,
     answers: Vec<Answer>,
     x: Vec<f64>,
-    (conflict, proved): (Conflict, bool),
+    (mut conflict, proved): (Conflict, bool),
 ) -> Outcome {
+    conflict.keep_own(session.task.model.own());
     let mut outcome = at(session, answers, x, Status::Infeasible);
     outcome.scope = if proved { Scope::Global } else { Scope::Local };
     words::infeasible(session, &mut outcome, &conflict);
@@ -118,7 +119,8 @@ fn standing(session: &Session<'_>, answers: Vec<Answer>, status: Status) -> Outc
 }
 
 /// An outcome that shows a point of its own.
-fn at(session: &Session<'_>, answers: Vec<Answer>, x: Vec<f64>, status: Status) -> Outcome {
+fn at(session: &Session<'_>, answers: Vec<Answer>, mut x: Vec<f64>, status: Status) -> Outcome {
+    session.task.model.complete(&mut x);
     let certificate = session.judge.certify(&x, None).ok();
     let objective = certificate.as_ref().map(|certificate| certificate.objective);
     Outcome { status, x, objective, certificate, answers, ..Outcome::default() }

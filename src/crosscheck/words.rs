@@ -2,6 +2,7 @@
 
 use super::session::Session;
 use super::{Answer, Conflict, LimitMove, Outcome, Status};
+use crate::backends::Termination;
 use crate::certificate::Scope;
 
 /// Names shown at the most.
@@ -16,7 +17,8 @@ pub(super) fn certified(outcome: &mut Outcome) {
     }
     for (k, answer) in outcome.answers.iter().enumerate() {
         if Some(k) != outcome.best && !answer.is_certified() {
-            message.push_str(&format!(" {} did not get there: {}.", answer.backend, why(answer)));
+            let how = if answer.solution.termination == Termination::Refused { "was not run" } else { "did not get there" };
+            message.push_str(&format!(" {} {how}: {}.", answer.backend, why(answer)));
         }
     }
     let all_pass = outcome.answers.iter().all(|answer| answer.is_certified());
@@ -133,6 +135,10 @@ pub(super) fn undecided(session: &Session<'_>, outcome: &mut Outcome) {
 
 /// Why an answer is not certified.
 fn why(answer: &Answer) -> String {
+    // Of a point nobody had the time or the means to improve there is nothing to say.
+    if matches!(answer.solution.termination, Termination::Refused | Termination::LimitReached | Termination::Interrupted) {
+        return answer.solution.message.trim_end_matches('.').to_string();
+    }
     let tests = answer.certificate.iter().flat_map(|certificate| certificate.messages.iter().cloned());
     let (message, invalid) = (&answer.solution.message, &answer.solution.invalid);
     let untold = invalid.iter().filter(|invalid| !message.contains(invalid.as_str())).cloned();

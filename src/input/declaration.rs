@@ -103,6 +103,8 @@ pub(super) enum DimensionEntry {
 pub(super) enum Datum {
     Number(f64),
     Text(String),
+    /// As many columns, `M[1]`, `M[2]`, ….
+    Numbers(Vec<f64>),
 }
 
 /// An entry of `[[ribs]]`.

@@ -24,7 +24,9 @@ pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
         declared.units.extend(field.text(reader).map(|label| (field.key.to_owned(), label.text)));
     }
     for field in named(&mut top, "parameters", reader) {
-        declared.parameters.extend(numbers(&field, reader).map(|value| (name(&field), value)));
+        // A name whose value is wrong is known all the same: its uses are no mistakes.
+        let value = numbers(&field, reader).unwrap_or(Numbers::One(Scalar::Number(f64::NAN, field.place)));
+        declared.parameters.push((name(&field), value));
     }
     for field in named(&mut top, "variables", reader) {
         declared.variables.extend(variable(&field, reader));
@@ -104,6 +106,11 @@ fn open_variable(field: &Field) -> VariableEntry {
 
 /// `lower`, `upper` and `start` of a table.
 fn range<T>(fields: &mut Fields, value: impl Fn(&Field, &mut Reader) -> Option<T>, reader: &mut Reader) -> Range<T> {
-    let mut one = |key| fields.take(key).and_then(|field| value(&field, reader));
+    let mut one = |key| {
+        reader.bounds = key != "start";
+        let read = fields.take(key).and_then(|field| value(&field, reader));
+        reader.bounds = false;
+        read
+    };
     Range { lower: one("lower"), upper: one("upper"), start: one("start") }
 }

@@ -12,10 +12,14 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("box", include_str!("examples/box.toml")),
     ("circle", include_str!("examples/circle.toml")),
     ("tube", include_str!("examples/tube.toml")),
+    ("i-section", include_str!("examples/i-section.toml")),
+    ("channel", include_str!("examples/channel.toml")),
+    ("angle", include_str!("examples/angle.toml")),
     ("polygon", include_str!("examples/polygon.toml")),
     ("polyline", include_str!("examples/polyline.toml")),
     ("profile", include_str!("examples/profile.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
+    ("load-cases", include_str!("examples/load-cases.toml")),
 ];
 
 /// The names [`example`] knows.

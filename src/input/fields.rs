@@ -26,6 +26,8 @@ pub(super) enum Scalar {
 
 /// What a table's keys are read with.
 pub(super) struct Reader<'a> {
+    /// Set while bounds are read: there, and nowhere else, `inf` has a meaning.
+    pub bounds: bool,
     pub source: &'a Source,
     pub findings: &'a mut Findings,
 }
@@ -102,6 +104,11 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// Whether the file says `inf`, rather than a number that is too large for one.
+    fn says_infinity(&self) -> bool {
+        matches!(self.value, DeValue::Float(float) if float.as_str().trim_start_matches(['+', '-']) == "inf")
+    }
+
     /// A text.
     pub fn text(&self, reader: &mut Reader) -> Option<Written> {
         match self.value {
@@ -115,6 +122,17 @@ impl<'a> Field<'a> {
         match self.as_number() {
             Some(number) if number.is_nan() => {
                 reader.findings.mistake(self.place, format!("`{}` is no number", self.key), "give a number");
+                None
+            }
+            Some(number) if number.is_infinite() && !(reader.bounds && self.says_infinity()) => {
+                let (what, help) = match self.says_infinity() {
+                    true => ("cannot be infinite", "only bounds may be inf; leave an open bound out, or give a number"),
+                    false => (
+                        "is too large for a number",
+                        "numbers reach to about 1.8e308; change the units, or leave an open bound out",
+                    ),
+                };
+                reader.findings.mistake(self.place, format!("`{}` {what}", self.key), help);
                 None
             }
             Some(number) => Some(number),

@@ -23,6 +23,8 @@ pub(super) struct Findings {
     warnings: Vec<Finding>,
     /// CSV tables by number: the file, and the name shown.
     pub tables: Vec<(PathBuf, String)>,
+    /// What separates the fields of each.
+    pub separators: Vec<u8>,
 }
 
 impl Findings {
@@ -91,7 +93,8 @@ impl Findings {
             }
             Place::Row { table, line, field } => {
                 let text = rows.get(table as usize).and_then(|lines| lines.get(&(line as usize))).cloned().unwrap_or_default();
-                let caret = table_lines::field(&text, field);
+                let separator = self.separators.get(table as usize).copied().unwrap_or(b',');
+                let caret = table_lines::field(&text, char::from(separator), field);
                 let file = self.tables.get(table as usize).map(|(_, name)| name.clone()).unwrap_or_default();
                 Mistake { file, line: line as usize, column: caret.start + 1, text, caret, message, help }
             }

@@ -1,11 +1,11 @@
 //! From a path to text: files that are missing, no files, no text, empty or far too large.
 
-use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
 use super::mistake::{Mistake, Mistakes};
 use super::source::Source;
+use crate::files;
 
 /// The largest problem file in bytes; more belongs into tables.
 const LARGEST: u64 = 64 << 20;
@@ -14,13 +14,12 @@ const LARGEST: u64 = 64 << 20;
 pub(super) fn load(path: &Path) -> Result<(Source, Vec<u8>), Mistakes> {
     let name = path.display().to_string();
     let whole = |message: String, help: &str| refuse(&name, message, help);
-    let metadata = fs::metadata(path).map_err(|error| unreadable(&name, &error))?;
-    if metadata.is_dir() {
+    if path.is_dir() {
         return Err(whole(format!("{name} is a directory"), "name the problem file in it, such as problem.toml"));
     }
     // A device may go on for ever whatever its length says.
     let mut bytes = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+    let read = files::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
     read.map_err(|error| unreadable(&name, &error))?;
     if bytes.len() as u64 > LARGEST {
         let help = "many sections and ribs belong into CSV tables: [tables] sections = \"sections.csv\"";

@@ -17,7 +17,7 @@ mod source;
 mod table;
 mod table_lines;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
@@ -41,6 +41,8 @@ pub struct Input {
     pub sha256: String,
     /// What the user should hear of, in the order of the file.
     pub warnings: Vec<Mistake>,
+    /// The file and its tables.
+    pub files: Vec<PathBuf>,
 }
 
 /// Reads a problem file and its tables.
@@ -91,7 +93,7 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
     checksum.update(&bytes);
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let declared = declare::declare(document.get_ref(), &mut Reader { source: &source, findings: &mut findings });
+    let declared = declare::declare(document.get_ref(), &mut Reader { bounds: false, source: &source, findings: &mut findings });
     if !errors.is_empty() {
         syntax(&source, &errors, &mut findings);
         return Err(findings.into_parts(&source, overrides).0);
@@ -100,13 +102,14 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
     let mut tables = Tables { folder, checksum: &mut checksum, watch };
     let (mut problem, findings) = assemble::assemble(declared, &source, findings, overrides, &mut tables);
     let clean = findings.clean();
+    let files = std::iter::once(path.to_path_buf()).chain(findings.tables.iter().map(|(path, _)| path.clone())).collect();
     let (mistakes, warnings) = findings.into_parts(&source, overrides);
     if !clean {
         return Err(mistakes);
     }
     problem.warnings = warnings.iter().map(one_line).collect();
     let sha256 = checksum.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok(Input { problem, sha256, warnings })
+    Ok(Input { problem, sha256, warnings, files })
 }
 
 /// Mistakes of the TOML itself. What the walk found on the same lines is only their consequence.

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::declare::{DEFAULT_DEGREE, PROFILE_KINDS};
 use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
-use crate::sections::{self, Form};
+use crate::sections::{self, Form, Kind};
 
 /// The schema (JSON Schema, draft 2020-12). Section kinds and their dimensions come from [`sections::KINDS`].
 ///
@@ -86,37 +86,68 @@ fn profile() -> Value {
 }
 
 fn data() -> Value {
-    map_of(json!({ "type": ["number", "string"] }), "Further numbers, or text for grouping.")
+    let datum = json!({ "type": ["number", "string", "array"], "items": { "type": "number" } });
+    map_of(datum, "Further numbers, arrays of numbers, or text for grouping.")
 }
 
-/// One alternative per form of every kind; forms that number a dimension (`thickness[1]`, …) are one, with an array.
+/// The kind first, then what it asks for: editors name the very key that is wrong. Forms that number a dimension (`thickness[1]`,
+/// …) are one, with an array.
 fn section() -> Value {
+    let kinds: Vec<&str> = sections::KINDS.iter().map(|kind| kind.name()).collect();
+    let rule = |kind: &&'static dyn Kind| {
+        json!({
+            "if": { "properties": { "kind": { "const": kind.name() } }, "required": ["kind"] },
+            "then": of_kind(*kind),
+        })
+    };
+    json!({
+        "type": "object",
+        "required": ["kind"],
+        "properties": { "kind": { "enum": kinds, "description": "What it is a section of." } },
+        "allOf": sections::KINDS.iter().map(rule).collect::<Vec<Value>>(),
+    })
+}
+
+/// All keys of a kind, and the sets of dimensions of which one must be given.
+fn of_kind(kind: &'static dyn Kind) -> Value {
     let own = object(json!({ "lower": scalar("Lower bound."), "upper": scalar("Upper bound."), "start": scalar("Start.") }), &[]);
     let dimension = json!({
         "anyOf": [scalar("A fixed number, or an expression."), own],
         "description": "A number (fixed), bounds and start (a variable), or an expression.",
     });
-    let whole = |form: &Form| form.dimensions.len() < 2 || form.dimensions.iter().all(|name| list_name(name).is_none());
-    let alternatives = sections::forms().filter(|(_, form)| whole(form)).map(|(kind, form)| {
-        let mut properties = Map::new();
-        properties.insert("kind".into(), json!({ "const": kind.name() }));
-        properties.insert("data".into(), data());
-        if kind.has_outline() {
-            properties.insert("points".into(), points());
+    let mut properties = Map::new();
+    properties.insert("kind".into(), json!({ "const": kind.name() }));
+    properties.insert("data".into(), data());
+    if kind.has_outline() {
+        properties.insert("points".into(), points());
+    }
+    if kind.takes_holes() {
+        let holes = json!({ "type": "array", "items": points(), "description": "Rings of points inside the outer one." });
+        properties.insert("holes".into(), holes);
+    }
+    let whole = |form: &&Form| form.dimensions.len() < 2 || form.dimensions.iter().all(|name| list_name(name).is_none());
+    let forms: Vec<&Form> = kind.forms().iter().filter(whole).collect();
+    for name in forms.iter().flat_map(|form| form.dimensions) {
+        let (key, value) = match list_name(name) {
+            Some(list) => (list, json!({ "type": "array", "items": dimension, "minItems": 1 })),
+            None => (*name, dimension.clone()),
+        };
+        properties.insert(key.to_owned(), value);
+    }
+    let asked = |form: &&Form| form.dimensions.iter().map(|name| list_name(name).unwrap_or(name)).collect::<Vec<&str>>();
+    let points = kind.has_outline().then_some("points");
+    let mut rule = object(Value::Object(properties), &["kind"].into_iter().chain(points).collect::<Vec<_>>());
+    match forms.as_slice() {
+        [one] => {
+            let required: Vec<&str> = ["kind"].into_iter().chain(points).chain(asked(one)).collect();
+            rule["required"] = json!(required);
         }
-        if kind.takes_holes() {
-            let holes = json!({ "type": "array", "items": points(), "description": "Rings of points inside the outer one." });
-            properties.insert("holes".into(), holes);
+        forms => {
+            let alternatives = forms.iter().map(|form| json!({ "required": asked(form) }));
+            rule["anyOf"] = alternatives.collect();
         }
-        let names = form.dimensions.iter().map(|name| list_name(name).unwrap_or(name));
-        properties.extend(form.dimensions.iter().map(|name| match list_name(name) {
-            Some(list) => (list.to_owned(), json!({ "type": "array", "items": dimension, "minItems": 1 })),
-            None => ((*name).to_owned(), dimension.clone()),
-        }));
-        let required = ["kind"].into_iter().chain(kind.has_outline().then_some("points")).chain(names);
-        object(Value::Object(properties), &required.collect::<Vec<_>>())
-    });
-    json!({ "anyOf": alternatives.collect::<Vec<Value>>() })
+    }
+    rule
 }
 
 /// `thickness` of `thickness[2]`.
@@ -189,11 +220,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_form_is_an_alternative() {
-        let alternatives = schema()["properties"]["sections"]["additionalProperties"]["anyOf"].clone();
-        let count = alternatives.as_array().map_or(0, Vec::len);
-        let numbered = sections::forms().filter(|(_, form)| form.dimensions.contains(&"thickness[2]")).count();
-        assert_eq!(count, sections::forms().count() - numbered);
-        assert_eq!(alternatives[0]["required"], json!(["kind", "b", "h"]));
+    fn every_kind_has_a_rule_with_its_dimensions() {
+        let section = schema()["properties"]["sections"]["additionalProperties"].clone();
+        let rules = section["allOf"].as_array().cloned().unwrap_or_default();
+        assert_eq!(rules.len(), sections::KINDS.len());
+        assert_eq!(rules[0]["then"]["required"], json!(["kind", "b", "h"]));
+        for (kind, form) in sections::forms() {
+            let rule = rules.iter().find(|rule| rule["if"]["properties"]["kind"]["const"] == kind.name()).expect("a rule");
+            for name in form.dimensions {
+                let key = list_name(name).unwrap_or(name);
+                assert!(rule["then"]["properties"].get(key).is_some(), "{}: {key}", kind.name());
+            }
+        }
     }
 }

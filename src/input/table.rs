@@ -1,7 +1,7 @@
 //! A CSV table read row by row; its bytes go into the checksum on the way.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
@@ -11,11 +11,18 @@ use super::Progress;
 use super::findings::Findings;
 use super::load::reason;
 use super::source::{Place, Written};
+use crate::problem::words::count;
 
 /// An open table.
 pub(super) struct Table<'a> {
     reader: csv::Reader<Summed<'a>>,
     record: StringRecord,
+    /// What separates its fields.
+    separator: u8,
+    /// Whether a number with a decimal comma was met.
+    commas: std::cell::Cell<bool>,
+    /// Whether a row was passed over after a mistake.
+    pub ragged: bool,
     /// Column names.
     pub headers: Vec<String>,
     number: u8,
@@ -24,9 +31,17 @@ pub(super) struct Table<'a> {
 /// One row.
 pub(super) struct Row<'r> {
     record: &'r StringRecord,
+    /// Set where a decimal comma is met; `None` where commas separate fields.
+    commas: Option<&'r std::cell::Cell<bool>>,
     line: u32,
     table: u8,
 }
+
+/// What may separate fields, the usual one first.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
+/// Bytes of a header that are looked at for separators.
+const HEADER: u64 = 1 << 16;
 
 /// Where tables are, and who hears of what is read.
 pub(super) struct Tables<'a> {
@@ -78,9 +93,15 @@ impl Tables<'_> {
         };
         let number = findings.tables.len() as u8;
         findings.tables.push((path.clone(), path.display().to_string()));
+        findings.separators.push(b',');
+        let separator = separator(&file).unwrap_or(b',');
+        findings.separators[number as usize] = separator;
         let summed = Summed { file, path, read: 0, size, checksum: self.checksum, watch: self.watch };
-        let reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).buffer_capacity(1 << 18).from_reader(summed);
-        let mut table = Table { reader, record: StringRecord::new(), headers: Vec::new(), number };
+        let mut builder = csv::ReaderBuilder::new();
+        builder.has_headers(false).flexible(true).buffer_capacity(1 << 18).delimiter(separator);
+        let (reader, record) = (builder.from_reader(summed), StringRecord::new());
+        let commas = std::cell::Cell::new(false);
+        let mut table = Table { reader, record, separator, commas, ragged: false, headers: Vec::new(), number };
         table.read_headers(findings)?;
         Some(table)
     }
@@ -122,11 +143,12 @@ impl Table<'_> {
                 Ok(false) => return None,
                 Ok(true) if self.record.len() == self.headers.len() => break,
                 Ok(true) => {
-                    let (found, expected) = (self.record.len(), self.headers.len());
-                    let message = format!("this row has {found} fields, the header {expected}");
-                    findings.mistake(self.place(line, Place::WHOLE_ROW), message, "empty cells still need their commas");
+                    self.ragged = true;
+                    let (message, help) = self.misfit();
+                    findings.mistake(self.place(line, Place::WHOLE_ROW), message, help);
                 }
                 Err(error) => {
+                    self.ragged = true;
                     findings.mistake(self.place(line, Place::WHOLE_ROW), said(&error), "save the table as UTF-8 text");
                     if !matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) {
                         return None;
@@ -134,7 +156,36 @@ impl Table<'_> {
                 }
             }
         }
-        Some(Row { line: self.line(), record: &self.record, table: self.number })
+        let commas = (self.separator != b',').then_some(&self.commas);
+        Some(Row { line: self.line(), record: &self.record, commas, table: self.number })
+    }
+
+    /// What is wrong with a row of another length than the header.
+    fn misfit(&self) -> (String, &'static str) {
+        if self.record.iter().any(|field| field.contains('\n')) {
+            let message = "a quotation mark opens in this row and does not close on it".to_owned();
+            return (message, "close it, or double it where it belongs to the text");
+        }
+        let (found, expected) = (count(self.record.len(), "field"), self.headers.len());
+        let message = format!("this row has {found}, the header {expected}");
+        let help = match self.separator {
+            b';' => "empty cells still need their semicolons",
+            b'\t' => "empty cells still need their tabs",
+            _ => "empty cells still need their commas",
+        };
+        (message, help)
+    }
+
+    /// Says how the table was read, where that is not as tables are by default.
+    pub fn say_how(&self, findings: &mut Findings) {
+        let separator = match self.separator {
+            b';' => "semicolons",
+            b'\t' => "tabs",
+            _ => return,
+        };
+        let commas = if self.commas.get() { "; numbers such as `0,5` were read as 0.5" } else { "" };
+        let message = format!("the fields of this table are separated by {separator}{commas}");
+        findings.warning(self.place(1, Place::WHOLE_ROW), message, None);
     }
 
     /// The line on which the last record ends, which for a record without line breaks is its line.
@@ -163,6 +214,38 @@ impl Row<'_> {
     pub fn written(&self, at: usize) -> Written {
         Written { text: self.field(at).to_owned(), place: self.place(at), inside: None }
     }
+
+    /// The field as a number, with a decimal comma where commas do not separate fields.
+    pub fn number(&self, at: usize) -> Option<f64> {
+        let text = self.field(at);
+        if let Ok(number) = text.parse::<f64>() {
+            return Some(number).filter(|number| !number.is_nan());
+        }
+        let commas = self.commas?;
+        let is_decimal = text.bytes().all(|b| b.is_ascii_digit() || b"+-,eE".contains(&b));
+        let (before, after) = text.split_once(',').filter(|_| is_decimal)?;
+        let number = format!("{before}.{after}").parse::<f64>().ok().filter(|number| !number.is_nan())?;
+        commas.set(true);
+        Some(number)
+    }
+}
+
+/// What separates the fields of the header: the one of comma, semicolon and tab that stands there most often. The file is at its
+/// beginning again afterwards.
+fn separator(file: &File) -> Option<u8> {
+    let mut head = Vec::new();
+    let mut file = file;
+    file.take(HEADER).read_to_end(&mut head).ok()?;
+    file.seek(SeekFrom::Start(0)).ok()?;
+    let (mut counts, mut quoted) = ([0_usize; 3], false);
+    for &byte in head.iter().take_while(|byte| **byte != b'\n') {
+        quoted ^= byte == b'"';
+        if let Some(at) = SEPARATORS.iter().position(|separator| *separator == byte && !quoted) {
+            counts[at] += 1;
+        }
+    }
+    let most = (0..3).rev().max_by_key(|&at| counts[at])?;
+    Some(SEPARATORS[most])
 }
 
 fn said(error: &csv::Error) -> String {

@@ -30,14 +30,14 @@ pub(super) fn read(path: &Path, wanted: &[usize]) -> Lines {
     lines
 }
 
-/// The characters of field `number` in a line of CSV, or the whole line.
-pub(super) fn field(line: &str, number: u16) -> Range<usize> {
+/// The characters of field `number` in a line of a table, or the whole line.
+pub(super) fn field(line: &str, separator: char, number: u16) -> Range<usize> {
     let (mut current, mut start, mut quoted) = (0, 0, false);
     for (at, c) in line.chars().enumerate() {
         match c {
             '"' => quoted = !quoted,
-            ',' if !quoted && current == number => return start..at,
-            ',' if !quoted => (current, start) = (current + 1, at + 1),
+            c if c == separator && !quoted && current == number => return start..at,
+            c if c == separator && !quoted => (current, start) = (current + 1, at + 1),
             _ => {}
         }
     }

@@ -2,17 +2,27 @@
 //! our own.
 //!
 //! A leaf: it knows index slices and values, nothing of models. Patterns are lower triangles compressed by rows,
-//! the layout of [`crate::model::Pattern`], so `SymmetricSolver::new(&pattern.offsets, &pattern.columns)` fits one.
+//! the layout of [`Pattern`], so `SymmetricSolver::new(&pattern.offsets, &pattern.columns)` fits one.
 
 pub mod blocks;
+pub mod bordered;
 pub mod bunch_kaufman;
 pub mod cholesky;
 pub mod congruence;
+pub mod copositive;
 mod dense;
+pub mod entries;
 mod guarded;
+pub mod null_space;
 mod ordering;
+pub mod partition;
+pub mod pattern;
 mod quasi_definite;
+pub mod saddle_point;
+pub mod signed_least_squares;
 mod sparse;
 mod symmetric;
 
+pub use partition::Partition;
+pub use pattern::Pattern;
 pub use symmetric::{FactorizationError, Inertia, SymmetricSolver};

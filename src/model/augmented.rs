@@ -46,6 +46,7 @@ impl<M: Model> Augmented<M> {
             lower: inner.lower.clone(),
             upper: inner.upper.clone(),
             start: inner.start.clone(),
+            typical: inner.typical.clone(),
             hessian,
             ..Meta::default()
         };

@@ -68,6 +68,7 @@ impl Differences {
             lower: user.lower.clone(),
             upper: user.upper.clone(),
             start: user.start.clone(),
+            typical: user.typical.clone(),
             objective_is_linear: user.objective_is_linear,
             ..Meta::default()
         };

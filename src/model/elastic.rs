@@ -113,6 +113,12 @@ fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec
         lower: base.lower.iter().copied().chain(std::iter::repeat_n(0.0, more)).collect(),
         upper: base.upper.iter().copied().chain(std::iter::repeat_n(f64::INFINITY, more)).collect(),
         start,
+        typical: base
+            .typical
+            .iter()
+            .copied()
+            .chain(std::iter::repeat_n(0.0, if base.typical.is_empty() { 0 } else { more }))
+            .collect(),
         row_lower: chosen(&base.row_lower),
         row_upper: chosen(&base.row_upper),
         row_is_linear: rows.iter().map(|&i| base.row_is_linear.get(i).copied().unwrap_or(false)).collect(),

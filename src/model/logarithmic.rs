@@ -49,6 +49,8 @@ impl Logarithmic {
             lower: user.lower.iter().copied().map(ln).collect(),
             upper: user.upper.iter().copied().map(ln).collect(),
             start: start.iter().copied().map(f64::ln).collect(),
+            // A logarithm has no unit: 1 is a step by a factor e.
+            typical: Vec::new(),
             row_lower: limit(&user.row_lower),
             row_upper: limit(&user.row_upper),
             row_is_linear: monomial.clone(),

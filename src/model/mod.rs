@@ -17,7 +17,6 @@ mod elements;
 pub mod evaluator;
 pub mod freed;
 pub mod logarithmic;
-pub mod pattern;
 pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -27,6 +26,7 @@ pub mod substitution;
 
 use thiserror::Error;
 
+pub use crate::linear_algebra::Pattern;
 pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
@@ -34,7 +34,6 @@ pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use freed::{Freed, Limit};
-pub use pattern::Pattern;
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
@@ -47,6 +46,9 @@ pub struct Meta {
     pub upper: Vec<f64>,
     /// Starting point, inside the bounds.
     pub start: Vec<f64>,
+    /// The magnitude of each variable that its user gave by a start, 0 where none was given; empty where nothing is known. What a
+    /// program fills in for a start that was left out is no size.
+    pub typical: Vec<f64>,
     /// Lower limits of the rows, −∞ where open. Their number is m. An equality has both limits equal.
     pub row_lower: Vec<f64>,
     /// Upper limits of the rows, +∞ where open.
@@ -59,6 +61,15 @@ pub struct Meta {
     pub jacobian: Pattern,
     /// Where the Hessian of the Lagrangian can be non-zero: n rows, lower triangle (column ≤ row).
     pub hessian: Pattern,
+}
+
+/// How many variables and rows are the user's own; what follows them is auxiliary and no business of a report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Own {
+    /// Variables.
+    pub variables: usize,
+    /// Rows.
+    pub rows: usize,
 }
 
 impl Meta {
@@ -101,6 +112,15 @@ pub trait Model: Sync {
 
     /// The values of `weight·∇²f + Σ y_i ∇²c_i` along [`Meta::hessian`], overwritten.
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
+
+    /// How many variables and rows are the user's own.
+    fn own(&self) -> Own {
+        Own { variables: self.meta().variables(), rows: self.meta().rows() }
+    }
+
+    /// Gives auxiliary variables the values that follow from the user's own, so that the objective and the rows are what the
+    /// user's expressions are at this point.
+    fn complete(&self, _x: &mut [f64]) {}
 
     /// The model seen as independent small ones, where it falls apart and can be evaluated piece by piece.
     fn components(&self) -> Option<Box<dyn Components + '_>> {

@@ -25,6 +25,7 @@ impl Sample {
             lower: vec![f64::NEG_INFINITY; n],
             upper: vec![f64::INFINITY; n],
             start: start.to_vec(),
+            typical: start.iter().map(|start| start.abs()).collect(),
             hessian: Pattern::from_positions(n, &mut triangle),
             ..Meta::default()
         };

@@ -99,7 +99,7 @@ impl<'a> Scaled<'a> {
     /// `model` in the units of `scales` (made for this model: lengths n and m).
     pub fn new(model: &'a dyn Model, scales: Scales) -> Self {
         let mut meta = model.meta().clone();
-        for values in [&mut meta.lower, &mut meta.upper, &mut meta.start] {
+        for values in [&mut meta.lower, &mut meta.upper, &mut meta.start, &mut meta.typical] {
             divide(values, &scales.variables);
         }
         for limits in [&mut meta.row_lower, &mut meta.row_upper] {

@@ -184,7 +184,7 @@ fn of_form(number: u16, name: &str) -> Option<Affine> {
 }
 
 /// A property as a graph of its form's dimensions.
-fn property_graph(number: u16, name: &str) -> Option<(Graph, NodeId)> {
+pub(super) fn property_graph(number: u16, name: &str) -> Option<(Graph, NodeId)> {
     let (form, mut graph) = (sections::form(number), Graph::new());
     let inputs: Vec<NodeId> = (0..form.dimensions.len() as u32).map(|at| graph.input(at)).collect();
     let node = sections::kind_of(number).property(&mut graph, &Given { form, dimensions: &inputs, outline: &[] }, name)?;

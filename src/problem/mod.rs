@@ -8,6 +8,7 @@ mod collections;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
+mod instance;
 pub mod items;
 pub mod kinks;
 pub mod mentions;
@@ -16,10 +17,12 @@ pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
 pub mod profile;
-mod ratio;
+mod range;
+pub mod ratio;
 pub mod resolve;
 pub mod settings;
 pub mod texts;
+pub mod words;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -59,6 +62,11 @@ pub struct Problem {
     pub ribs: Ribs,
     /// Constraint declarations, in the file's order.
     pub constraints: Vec<Constraint>,
+    /// The parameter `density`, which gives mass to volume in reports.
+    pub density: Option<f64>,
+    /// Variables in the place of minima, maxima and absolute values: the last ones of [`Problem::variables`], in order.
+    /// The constraints that bound them come last, too.
+    pub auxiliaries: Vec<kinks::Auxiliary>,
     /// `[solver]`.
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.
@@ -141,6 +149,19 @@ pub struct Variables {
     pub upper: Vec<f64>,
     /// Starting values, already inside the bounds.
     pub start: Vec<f64>,
+    /// Magnitudes of the starts that were given, 0 where one was left out; may be shorter than the others where the last ones
+    /// were left out.
+    pub typical: Vec<f64>,
+}
+
+impl Variables {
+    /// Leaves out all but the first `count`.
+    pub fn truncate(&mut self, count: usize) {
+        self.origin.truncate(count);
+        for column in [&mut self.lower, &mut self.upper, &mut self.start] {
+            column.truncate(count);
+        }
+    }
 }
 
 /// Where a scalar variable comes from (names of six million variables are not kept as text).

@@ -1,7 +1,8 @@
 //! Rows as geometric programs state them: what is added up on one side over what is added up on the other, against 1.
 //!
-//! `h <= 8*b` becomes `h/(8*b) <= 1`, `Ix >= I_req` becomes `I_req/Ix <= 1`. Whether numerator and denominator are of the
-//! kind that makes the row convex in logarithms is not decided here.
+//! `h <= 8*b` becomes `h/(8*b) <= 1`, `Ix >= I_req` becomes `I_req/Ix <= 1`. The two forms say the same only where both sides are
+//! positive; whether they are, and whether they are of the kind that makes the row convex in logarithms, is not decided here:
+//! terms are sorted by how they are written, which proves nothing about their signs.
 
 use super::formula::Formula;
 use super::{Limit, Problem};
@@ -13,28 +14,42 @@ const DEPTH: usize = 64;
 /// Terms of one row at which definitions stay closed: they may share one another many times over.
 const MOST_TERMS: usize = 10_000;
 
+/// A row as geometric programs state it.
+#[derive(Debug)]
+pub enum Ratio {
+    /// A quotient (or, between two limits, the formula itself) against a limit.
+    Row(Formula, Limit),
+    /// The row says that this formula is not negative: no ratio says that.
+    NotNegative(Formula),
+    /// No ratio of positive sums says what the row says.
+    None,
+}
+
 impl Problem {
-    /// The row as a ratio; `None` where one side is empty (a sum of positive terms is never below zero).
-    pub fn ratio(&self, left: &Formula, right: &Limit) -> Option<(Formula, Limit)> {
+    /// The row as a ratio, where both sides have terms.
+    pub fn ratio(&self, left: &Formula, right: &Limit) -> Ratio {
         let one = || Formula::Constant(1.0);
         match right {
-            Limit::AtMost(limit) => Some((self.quotient(left, limit)?, Limit::AtMost(one()))),
-            Limit::AtLeast(limit) => Some((self.quotient(limit, left)?, Limit::AtMost(one()))),
-            Limit::Equal(limit) => Some((self.quotient(left, limit)?, Limit::Equal(one()))),
-            Limit::Between(..) => Some((left.clone(), right.clone())),
+            Limit::AtMost(limit) => self.quotient(left, limit, Limit::AtMost(one())),
+            Limit::AtLeast(limit) => self.quotient(limit, left, Limit::AtMost(one())),
+            Limit::Equal(limit) => self.quotient(left, limit, Limit::Equal(one())),
+            Limit::Between(..) => Ratio::Row(left.clone(), right.clone()),
         }
     }
 
-    /// `small ≤ large` as the quotient that must not exceed 1.
-    fn quotient(&self, small: &Formula, large: &Formula) -> Option<Formula> {
+    /// `small ≤ large`, or `small == large`, as the quotient held against 1.
+    fn quotient(&self, small: &Formula, large: &Formula, limit: Limit) -> Ratio {
         let mut sides = Sides::default();
         self.collect(small, 1.0, DEPTH, &mut sides);
         self.collect(large, -1.0, DEPTH, &mut sides);
         let Sides { positive, negative } = sides;
         match (positive.is_empty(), negative.is_empty()) {
-            (_, true) => None,
-            (true, false) => Some(Formula::Constant(0.0)),
-            (false, false) => Some(Formula::Binary(Binary::Divide, Box::new(total(positive)), Box::new(total(negative)))),
+            (_, true) => Ratio::None,
+            (true, false) if matches!(limit, Limit::AtMost(_)) => Ratio::NotNegative(total(negative)),
+            (true, false) => Ratio::None,
+            (false, false) => {
+                Ratio::Row(Formula::Binary(Binary::Divide, Box::new(total(positive)), Box::new(total(negative))), limit)
+            }
         }
     }
 
@@ -57,14 +72,11 @@ impl Problem {
                 go(right, -factor);
             }
             Formula::Fold(Fold::Sum, list) => list.iter().for_each(|one| go(one, factor)),
-            Formula::Binary(Binary::Multiply, number, other) | Formula::Binary(Binary::Multiply, other, number)
-                if number.as_constant().is_some() =>
-            {
-                go(other, factor * number.as_constant().unwrap_or(1.0));
-            }
-            Formula::Binary(Binary::Divide, other, number) if number.as_constant().is_some() => {
-                go(other, factor / number.as_constant().unwrap_or(1.0));
-            }
+            Formula::Binary(Binary::Multiply | Binary::Divide, ..) => match coefficient(formula) {
+                (number, Some(rest)) if is_product(&rest) => sides.push(&rest, factor * number),
+                (number, Some(rest)) => go(&rest, factor * number),
+                (number, None) => sides.push(&Formula::Constant(number.abs()), factor * sign(number)),
+            },
             Formula::Definition(definition) if self.has_signs(*definition) && terms < MOST_TERMS => {
                 go(&self.definitions[*definition as usize].1, factor);
             }
@@ -77,9 +89,39 @@ impl Problem {
         let opened = &self.definitions[definition as usize].1;
         matches!(
             opened,
-            Formula::Unary(Unary::Negate, _) | Formula::Binary(Binary::Subtract | Binary::Add, ..) | Formula::Constant(_)
+            Formula::Unary(Unary::Negate, _)
+                | Formula::Binary(Binary::Subtract | Binary::Add | Binary::Multiply | Binary::Divide, ..)
+                | Formula::Constant(_)
         )
     }
+}
+
+/// The number a product is multiplied by, and the rest: `-x*y/2` is −½·(x·y).
+fn coefficient(formula: &Formula) -> (f64, Option<Formula>) {
+    match formula {
+        Formula::Constant(value) => (*value, None),
+        Formula::Unary(Unary::Negate, inner) => {
+            let (number, rest) = coefficient(inner);
+            (-number, rest)
+        }
+        Formula::Binary(Binary::Multiply, left, right) => match (coefficient(left), coefficient(right)) {
+            ((a, Some(left)), (b, Some(right))) => (a * b, Some(joined(Binary::Multiply, left, right))),
+            ((a, rest), (b, None)) | ((a, None), (b, rest)) => (a * b, rest),
+        },
+        Formula::Binary(Binary::Divide, left, right) => match (coefficient(left), coefficient(right)) {
+            ((a, rest), (b, None)) => (a / b, rest),
+            ((a, left), (b, Some(right))) => (a / b, Some(joined(Binary::Divide, left.unwrap_or(Formula::Constant(1.0)), right))),
+        },
+        other => (1.0, Some(other.clone())),
+    }
+}
+
+fn joined(op: Binary, left: Formula, right: Formula) -> Formula {
+    Formula::Binary(op, Box::new(left), Box::new(right))
+}
+
+fn is_product(formula: &Formula) -> bool {
+    matches!(formula, Formula::Binary(Binary::Multiply | Binary::Divide, ..))
 }
 
 /// 1, −1, or 0.
@@ -136,7 +178,7 @@ mod tests {
             variable(0),
             Box::new(Formula::Binary(Binary::Multiply, Box::new(number(8.0)), variable(1))),
         );
-        let (ratio, limit) = Problem::default().ratio(&difference, &Limit::AtMost(number(0.0))).unwrap();
+        let Ratio::Row(ratio, limit) = Problem::default().ratio(&difference, &Limit::AtMost(number(0.0))) else { panic!() };
         let eight = Formula::Binary(Binary::Multiply, Box::new(number(8.0)), variable(1));
         assert_eq!(ratio, Formula::Binary(Binary::Divide, variable(0), Box::new(eight)));
         assert!(matches!(limit, Limit::AtMost(Formula::Constant(1.0))));
@@ -144,8 +186,27 @@ mod tests {
 
     #[test]
     fn a_lower_limit_stands_above_the_line() {
-        let (ratio, _) = Problem::default().ratio(&Formula::Variable(0), &Limit::AtLeast(number(3.0))).unwrap();
+        let Ratio::Row(ratio, _) = Problem::default().ratio(&Formula::Variable(0), &Limit::AtLeast(number(3.0))) else {
+            panic!()
+        };
         assert_eq!(ratio, Formula::Binary(Binary::Divide, Box::new(number(3.0)), variable(0)));
-        assert!(Problem::default().ratio(&Formula::Variable(0), &Limit::AtMost(number(-1.0))).is_none());
+        assert!(matches!(Problem::default().ratio(&Formula::Variable(0), &Limit::AtMost(number(-1.0))), Ratio::None));
+    }
+
+    #[test]
+    fn signs_are_found_inside_products() {
+        let product = |left, right| Formula::Binary(Binary::Multiply, Box::new(left), Box::new(right));
+        let negated = product(Formula::Unary(Unary::Negate, variable(0)), *variable(1));
+        let Ratio::Row(ratio, _) = Problem::default().ratio(&negated, &Limit::AtLeast(number(-2.0))) else { panic!() };
+        let expected = product(*variable(0), *variable(1));
+        assert_eq!(ratio, Formula::Binary(Binary::Divide, Box::new(expected), Box::new(number(2.0))));
+    }
+
+    #[test]
+    fn a_row_without_a_small_side_is_no_ratio() {
+        let power = Formula::Binary(Binary::Power, variable(0), Box::new(number(3.0)));
+        let ratio = Problem::default().ratio(&power, &Limit::AtLeast(number(-2.0)));
+        assert!(matches!(ratio, Ratio::NotNegative(_)), "{ratio:?}");
+        assert!(matches!(Problem::default().ratio(&power, &Limit::AtMost(number(0.0))), Ratio::None));
     }
 }

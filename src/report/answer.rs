@@ -1,8 +1,7 @@
 //! Reads an answer back: a `result.json`, or a CSV with the columns `name,value`.
 
 use std::collections::HashSet;
-use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -10,6 +9,7 @@ use thiserror::Error;
 
 use super::named_numbers::{self, NamedNumbers};
 use super::text::listing;
+use crate::files;
 use crate::model::Model;
 
 /// Values by variable name, and multipliers by row name where there are any.
@@ -31,7 +31,7 @@ pub enum AnswerError {
         cause: String,
     },
     /// Variables of the problem have no value.
-    #[error("the answer has no value for {0}; verify needs all variables of the problem")]
+    #[error("the answer has no value for {0}; here it must have one for every variable of the problem")]
     Missing(String),
     /// Names that are no variables of the problem.
     #[error("the answer names {0}, which the problem does not have; is it the answer to another problem?")]
@@ -46,21 +46,23 @@ struct ResultFile {
 }
 
 impl EarlierAnswer {
-    /// Reads a file; anything whose name does not end in `.json` is taken for a CSV.
+    /// Reads a file, or standard input by the name `-`; what neither begins with a brace nor is called `.json` is taken for a CSV.
     ///
     /// # Errors
     /// Where it cannot be opened, is not of that form, or a value is not a finite number.
     pub fn read(path: &Path) -> Result<EarlierAnswer, AnswerError> {
         let unreadable = |cause: String| AnswerError::Unreadable { path: path.into(), cause };
-        let file = File::open(path).map_err(|cause| unreadable(cause.to_string()))?;
-        let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        let file = files::open(path).map_err(|cause| unreadable(cause.to_string()))?;
+        let mut file = BufReader::with_capacity(1 << 18, file);
+        // Nothing but JSON begins with a brace.
+        let is_json = file.fill_buf().map_err(|cause| unreadable(cause.to_string()))?.trim_ascii_start().starts_with(b"{");
+        let is_json = is_json || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
         let answer = if is_json { Self::from_json(file) } else { Self::from_csv(file) };
         answer.map_err(unreadable)
     }
 
     fn from_json(file: impl io::Read) -> Result<EarlierAnswer, String> {
-        let reader = BufReader::with_capacity(1 << 18, file);
-        let ResultFile { variables, constraints } = serde_json::from_reader(reader).map_err(|error| error.to_string())?;
+        let ResultFile { variables, constraints } = serde_json::from_reader(file).map_err(|error| error.to_string())?;
         if let Some((name, _)) = variables.iter().find(|(_, value)| !value.is_finite()) {
             return Err(format!("{name} has no value"));
         }
@@ -80,6 +82,7 @@ impl EarlierAnswer {
             let record = record.map_err(|error| error.to_string())?;
             let line = record.position().map_or(0, csv::Position::line);
             let (name, text) = (record.get(name).unwrap_or_default(), record.get(value).unwrap_or_default());
+            let name = unquoted(name);
             let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
             let number = number.ok_or_else(|| format!("line {line}: the value of {name} is {text:?}, not a finite number"))?;
             if !known.insert(name.to_string()) {
@@ -160,6 +163,11 @@ impl EarlierAnswer {
         unknown.sort();
         unknown
     }
+}
+
+/// A name without the apostrophe that keeps a spreadsheet from reading it as a formula, see [`super::text::cell`].
+fn unquoted(name: &str) -> &str {
+    name.strip_prefix('\'').filter(|rest| rest.starts_with(['=', '+', '-', '@'])).unwrap_or(name)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::number::short;
-use super::text::{TextTable, count};
+use super::text::{TextTable, count, shown};
 
 /// At most this many variables are shown one by one; those that are not at their lower bounds come first.
 const MOST_LINES: usize = 40;
@@ -70,7 +70,7 @@ pub fn write(ends: &[End], objective: &str, out: &mut dyn Write) -> io::Result<(
     }
     for end in order.iter().take(MOST_LINES) {
         if let Some(reason) = &end.reason {
-            writeln!(out, "  {}: {reason}", end.name)?;
+            writeln!(out, "  {}: {reason}", shown(&end.name))?;
         }
     }
     writeln!(out, "{}", conclusion(ends))

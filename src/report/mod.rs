@@ -7,17 +7,19 @@ mod blocks;
 pub mod bounds;
 pub mod comparison;
 pub mod cross_section;
+pub mod earlier;
 pub mod governing;
 mod named_numbers;
 pub mod number;
 pub mod pictures;
 pub mod profile;
 pub mod result;
+pub mod sizes;
 pub mod summary;
 pub mod svg;
 pub mod tables;
 pub mod text;
-pub mod whole_file;
+pub mod utilisation;
 
 use crate::certificate::Side;
 use crate::crosscheck::Outcome;
@@ -43,6 +45,8 @@ pub struct About {
     pub has_sections: bool,
     /// What the reader wants said.
     pub warnings: Vec<String>,
+    /// Changes to the file's numbers for this run, as given by `--set`.
+    pub changes: Vec<String>,
 }
 
 impl About {
@@ -82,6 +86,10 @@ pub struct Findings<'a> {
     pub outcome: &'a Outcome,
     /// Volumes at the reported point, where there are ribs.
     pub volumes: Option<Volumes>,
+    /// Mass of all ribs there, where each has a density.
+    pub mass: Option<f64>,
+    /// How far the limits are used there.
+    pub utilisation: Option<&'a utilisation::Table>,
 }
 
 /// One row, or the bounds of one variable, at the reported point and in the user's sense.

@@ -1,11 +1,13 @@
-//! The summary a person reads after a run: what the point is, why it stopped, what governs, what each limit costs.
+//! The summary a person reads after a run: what the point is, what governs, what each limit costs, how far all are used, and
+//! last what the solvers did.
 
 use std::io::{self, Write};
 
 use super::governing::{Governing, Group, Limit, per_cent};
 use super::number::{percent, short, significant};
-use super::text::{TextTable, count, listing};
+use super::text::{TextTable, count, listing, plain, shortened};
 use super::{Findings, Volumes};
+use crate::backends::Termination;
 use crate::crosscheck::{Answer, Conflict, Status};
 
 /// At most this many limits, rows or variables are shown one by one.
@@ -13,6 +15,9 @@ const MOST_LINES: usize = 12;
 
 /// At most this many letters of an objective.
 const LONGEST_EXPRESSION: usize = 100;
+
+/// At most this many of a verdict.
+const LONGEST_MESSAGE: usize = 2000;
 
 /// Laws that differ by more than this are worth a warning.
 const VOLUME_DIFFERENCE: f64 = 0.01;
@@ -24,18 +29,24 @@ const VOLUME_DIFFERENCE: f64 = 0.01;
 pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     heading(findings, out)?;
     verdict(findings, out)?;
-    backends(findings, out)?;
     point(findings, out)?;
     governing(findings, out)?;
+    if let Some(table) = findings.utilisation {
+        table.write(out)?;
+    }
     conflict(findings, out)?;
+    volumes(findings, out)?;
     minima(findings, out)?;
-    volumes(findings, out)
+    backends(findings, out)
 }
 
 fn heading(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let (about, meta) = (findings.about, findings.model.meta());
     let sizes = format!("{}, {}", count(meta.variables(), "variable"), count(meta.rows(), "constraint row"));
     writeln!(out, "{} ({}): {sizes}, {}", about.title, about.file, findings.class)?;
+    if !about.changes.is_empty() {
+        writeln!(out, "changed for this run: {}", about.changes.join(", "))?;
+    }
     if !about.units.is_empty() {
         let labels: Vec<String> = about.units.iter().map(|(name, label)| format!("{name} in {label}")).collect();
         writeln!(out, "units: {}", labels.join(", "))?;
@@ -45,22 +56,24 @@ fn heading(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
 
 fn verdict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let outcome = findings.outcome;
-    writeln!(out, "\n{}: {}", outcome.status.as_str(), outcome.message)?;
+    writeln!(out, "\n{}: {}", outcome.status.as_str(), shortened(&outcome.message, LONGEST_MESSAGE))?;
     if let Some(remedy) = &outcome.remedy {
-        writeln!(out, "what to do: {remedy}")?;
+        writeln!(out, "what to do: {}", shortened(remedy, LONGEST_MESSAGE))?;
     }
     if let Some(objective) = findings.objective() {
-        writeln!(out, "{} = {}{}", shortened(&findings.about.objective), significant(objective, 10), objective_unit(findings))?;
+        writeln!(out, "{} = {}{}", brief(&findings.about.objective), significant(objective, 10), objective_unit(findings))?;
         if let Some(bound) = findings.lower_bound() {
             let gap = (objective - bound).abs();
-            writeln!(out, "within {} of the best possible ({})", short(gap), significant(bound, 10))?;
+            let share = gap / objective.abs().max(bound.abs()).max(f64::MIN_POSITIVE);
+            let gap = if gap == 0.0 { "exactly".into() } else { format!("within {} (relative) of", significant(share, 2)) };
+            writeln!(out, "{gap} the best possible, {}", significant(bound, 10))?;
         }
     }
     Ok(())
 }
 
 /// The first part of an expression that fills lines.
-fn shortened(expression: &str) -> String {
+fn brief(expression: &str) -> String {
     match expression.char_indices().nth(LONGEST_EXPRESSION) {
         Some((end, _)) => format!("{} …", &expression[..end]),
         None => expression.into(),
@@ -88,15 +101,16 @@ fn backends(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     }
     write!(out, "\n{table}")?;
     for answer in &outcome.answers {
-        writeln!(out, "  {}: {}", answer.backend, answer.solution.message)?;
+        writeln!(out, "  {}: {}", answer.backend, shortened(&answer.solution.message, LONGEST_MESSAGE))?;
         for remark in &answer.remarks {
             writeln!(out, "    {remark}")?;
         }
     }
     if let Some(agreement) = outcome.agreement {
         let word = if agreement.agree { "agree" } else { "do not agree" };
-        let (f, x) = (short(agreement.objective_difference), short(agreement.variable_difference));
-        writeln!(out, "  the backends {word}: objectives differ by {f}, variables by up to {x} (relative)")?;
+        let size = outcome.objective.map_or(1.0, f64::abs).max(f64::MIN_POSITIVE);
+        let (f, x) = (significant(agreement.objective_difference / size, 2), significant(agreement.variable_difference, 2));
+        writeln!(out, "  the backends {word}: relative to their sizes, objectives differ by {f}, variables by up to {x}")?;
     }
     Ok(())
 }
@@ -118,6 +132,11 @@ fn backend_row(findings: &Findings<'_>, answer: &Answer) -> Vec<String> {
     let measure = |get: fn(&crate::certificate::Certificate) -> f64| {
         answer.certificate.as_ref().map_or("-".into(), |certificate| significant(get(certificate), 2))
     };
+    if solution.termination == Termination::Refused {
+        let mut row = vec![answer.backend.into(), solution.algorithm.clone(), "refused".into()];
+        row.resize(10, "-".into());
+        return row;
+    }
     let certified = answer.is_certified();
     vec![
         answer.backend.into(),
@@ -164,6 +183,9 @@ fn governing(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         table.add(limit_row(limit, objective));
     }
     write!(out, "{table}")?;
+    if governing.costliest.iter().any(|limit| limit.name.contains('#')) {
+        writeln!(out, "  name#2: the part of this row that is made from the second argument of its max, min or abs")?;
+    }
     if !governing.groups.is_empty() {
         writeln!(out, "\n  all {} governing limits by group", governing.with_cost)?;
         let mut table = TextTable::new(2, &["group", "side", "limits", "per +1 % of all", "of objective"]);
@@ -262,6 +284,10 @@ fn minima(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
 fn volumes(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     if let Some(volumes) = &findings.volumes {
         write_volumes(volumes, findings.about.unit("length"), out)?;
+        if let Some(mass) = findings.mass {
+            let unit = findings.about.unit("mass").map_or(String::new(), |unit| format!(" {}", plain(unit)));
+            writeln!(out, "mass of the ribs: {}{unit}", short(mass))?;
+        }
     }
     if findings.about.has_sections {
         writeln!(out, "Ix is about the horizontal axis, the strong one of an upright rib; Eurocode calls it Iy.")?;

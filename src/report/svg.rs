@@ -3,25 +3,28 @@
 use std::fmt::Write as _;
 
 use super::number::significant;
-use super::pictures::canvas::{COLOURS, Canvas};
+use super::pictures::canvas::{Canvas, Ink, Style};
 use super::profile::{Curve, Profile};
 
 const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 460.0;
 const LEFT: f64 = 60.0;
 const RIGHT: f64 = 290.0;
-const TOP: f64 = 40.0;
+const TOP: f64 = 60.0;
+/// Curves of as many colours come before dashes tell them apart.
+const COLOURS: usize = 8;
 const BOTTOM: f64 = 50.0;
 const DASHES: [&str; 3] = ["", "6 3", "2 3"];
 
 /// Draws the profile.
 pub fn draw(profile: &Profile) -> String {
     let plot = Plot { decades: profile.largest_ratio().log10().max(0.3) * 1.05 };
-    let title = format!("Problems solved within a factor of the fewest {}", profile.measure);
-    let mut canvas = Canvas::new(WIDTH, HEIGHT, &title);
+    let shown = format!("Problems solved within a factor of the fewest {}", profile.measure);
+    let mut canvas = Canvas::new(WIDTH, HEIGHT, "Performance profile", &shown);
     plot.axes(&mut canvas);
     for (index, curve) in profile.curves.iter().enumerate() {
-        plot.curve(&mut canvas, index, curve);
+        let same = profile.curves[..index].iter().find(|other| other.ratios == curve.ratios);
+        plot.curve(&mut canvas, index, curve, same);
     }
     canvas.finish()
 }
@@ -52,28 +55,28 @@ impl Plot {
         let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for step in 0..=5 {
             let (share, y) = (f64::from(step) / 5.0, Self::y(f64::from(step) / 5.0));
-            canvas.line([LEFT, y, right, y], "#dddddd");
-            canvas.text(LEFT - 8.0, y + 4.0, "end", &format!("{} %", significant(100.0 * share, 3)));
+            canvas.line([LEFT, y, right, y], Ink::Faint);
+            canvas.note(LEFT - 8.0, y + 4.0, "end", &format!("{} %", significant(100.0 * share, 3)));
         }
         let mut factor: f64 = 1.0;
         while factor.log10() <= self.decades {
             for &multiple in self.ticks() {
                 if (factor * multiple).log10() <= self.decades {
                     let x = self.x(factor * multiple);
-                    canvas.line([x, TOP, x, bottom], "#dddddd");
-                    canvas.text(x, bottom + 18.0, "middle", &significant(factor * multiple, 3));
+                    canvas.line([x, TOP, x, bottom], Ink::Faint);
+                    canvas.note(x, bottom + 18.0, "middle", &significant(factor * multiple, 3));
                 }
             }
             factor *= 10.0;
         }
-        canvas.line([LEFT, bottom, right, bottom], "black");
-        canvas.line([LEFT, TOP, LEFT, bottom], "black");
+        canvas.line([LEFT, bottom, right, bottom], Ink::Middle);
+        canvas.line([LEFT, TOP, LEFT, bottom], Ink::Middle);
         canvas.text((LEFT + right) / 2.0, bottom + 38.0, "middle", "factor");
     }
 
-    fn curve(&self, canvas: &mut Canvas, index: usize, curve: &Curve) {
-        let colour = COLOURS[index % COLOURS.len()];
-        let dash = DASHES[(index / COLOURS.len()) % DASHES.len()];
+    fn curve(&self, canvas: &mut Canvas, index: usize, curve: &Curve, same: Option<&Curve>) {
+        // A curve that lies over an earlier one leaves it to be seen.
+        let dash = if same.is_some() { "2 6" } else { DASHES[(index / COLOURS) % DASHES.len()] };
         let end = 10f64.powf(self.decades);
         let mut path = format!("M{:.2} {:.2}", self.x(1.0), Self::y(curve.share(1.0)));
         for &ratio in curve.ratios.iter().filter(|&&ratio| ratio > 1.0) {
@@ -81,11 +84,21 @@ impl Plot {
             let _ = write!(path, "H{:.2}V{:.2}", self.x(ratio), Self::y(curve.share(ratio)));
         }
         let _ = write!(path, "H{:.2}", self.x(end));
-        let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\"");
-        canvas.path(&path, &style);
+        let style = Style { dash, ..Style::line(Ink::Curve(index), 2.0) };
+        canvas.path(&path, style);
         let (x, y) = (WIDTH - RIGHT + 14.0, TOP + 10.0 + 18.0 * index as f64);
-        canvas.path(&format!("M{x} {y}h24"), &style);
-        canvas.text(x + 32.0, y + 4.0, "start", &format!("{} ({:.0} %)", curve.solver, 100.0 * curve.share(f64::MAX)));
+        canvas.path(&format!("M{x} {y}h24"), style);
+        canvas.text(
+            x + 32.0,
+            y + 4.0,
+            "start",
+            &format!(
+                "{} ({:.0} %){}",
+                curve.solver,
+                100.0 * curve.share(f64::MAX),
+                same.map_or(String::new(), |other| format!(", over {}", other.solver))
+            ),
+        );
     }
 }
 

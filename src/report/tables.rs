@@ -6,14 +6,16 @@ use std::ops::Range;
 use super::number::{push_exact, push_exact_or_open};
 use super::{Findings, Held, blocks};
 
-/// Writes `name,lower,start,upper,<backend>…,active,multiplier,sensitivity`, one row per variable.
+/// Writes `name,lower,start,upper,<backend>…,active,multiplier,sensitivity,value`, one row per variable; `value` is the
+/// reported point, so that the table is an answer to start from.
 ///
 /// # Errors
 /// Whatever the writer says.
 pub fn variables(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let answers = &findings.outcome.answers;
     let backends = answers.iter().map(|answer| answer.backend);
-    let columns = ["name", "lower", "start", "upper"].into_iter().chain(backends).chain(["active", "multiplier", "sensitivity"]);
+    let columns =
+        ["name", "lower", "start", "upper"].into_iter().chain(backends).chain(["active", "multiplier", "sensitivity", "value"]);
     header(out, columns)?;
     let meta = findings.model.meta();
     let row = |j: usize, rows: &mut Rows| {
@@ -24,7 +26,9 @@ pub fn variables(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()>
         for answer in answers {
             rows.number(answer.solution.x.get(j).copied().unwrap_or(f64::NAN))?;
         }
-        rows.end(findings.bound(j))
+        rows.held(findings.bound(j))?;
+        rows.number(findings.outcome.x.get(j).copied().unwrap_or(f64::NAN))?;
+        rows.end()
     };
     blocks::write(out, meta.variables(), |range| Rows::of(range, row))
 }
@@ -41,7 +45,8 @@ pub fn constraints(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<(
         rows.number(findings.row_value(i))?;
         rows.number_or_open(meta.row_lower[i])?;
         rows.number_or_open(meta.row_upper[i])?;
-        rows.end(findings.row(i))
+        rows.held(findings.row(i))?;
+        rows.end()
     };
     blocks::write(out, meta.rows(), |range| Rows::of(range, row))
 }
@@ -68,7 +73,7 @@ impl Rows {
     }
 
     fn text(&mut self, text: &str) -> csv::Result<()> {
-        self.table.write_field(text)
+        self.table.write_field(&*super::text::cell(text))
     }
 
     fn number(&mut self, value: f64) -> csv::Result<()> {
@@ -83,10 +88,13 @@ impl Rows {
         self.table.write_field(&self.cell)
     }
 
-    fn end(&mut self, held: Held) -> csv::Result<()> {
+    fn held(&mut self, held: Held) -> csv::Result<()> {
         self.text(held.side.as_str())?;
         self.number(held.multiplier)?;
-        self.number(held.sensitivity)?;
+        self.number(held.sensitivity)
+    }
+
+    fn end(&mut self) -> csv::Result<()> {
         self.table.write_record(None::<&[u8]>)
     }
 }

@@ -23,6 +23,7 @@ fn about(sense: Sense) -> About {
         units: vec![("length".into(), "m".into())],
         has_sections: true,
         warnings: Vec::new(),
+        changes: Vec::new(),
     }
 }
 
@@ -86,7 +87,8 @@ fn text(
 ) -> String {
     let (about, model) = (about(sense), model());
     let volumes = Some(Volumes { total: 1.9, frustum: 1.9, prismatoid: 2.0 });
-    let findings = Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes };
+    let findings =
+        Findings { about: &about, model: &model, class: Class::Linear, outcome, volumes, mass: None, utilisation: None };
     let mut out = Vec::new();
     write(&findings, &mut out).unwrap();
     String::from_utf8(out).unwrap()
@@ -97,8 +99,8 @@ fn tables_leave_open_bounds_empty() {
     let variables = text(Sense::Minimize, &outcome(), |findings, out| tables::variables(findings, out));
     assert_eq!(
         variables,
-        "name,lower,start,upper,argmin,active,multiplier,sensitivity\n\
-         x[1],0.5,1.0,,0.5,lower,0.0,0.0\nx[2],0.1,0.2,0.7,0.7,upper,1.0,-1.0\n"
+        "name,lower,start,upper,argmin,active,multiplier,sensitivity,value\n\
+         x[1],0.5,1.0,,0.5,lower,0.0,0.0,0.5\nx[2],0.1,0.2,0.7,0.7,upper,1.0,-1.0,0.7\n"
     );
     let constraints = text(Sense::Minimize, &outcome(), |findings, out| tables::constraints(findings, out));
     assert_eq!(constraints, "name,value,lower,upper,active,multiplier,sensitivity\nc1,0.35,0.35,,lower,-2.0,2.0\n");

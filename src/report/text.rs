@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+pub use crate::problem::words::{cell, count, plain, shortened, shown};
+
 /// A table for people: a header, rows, columns as wide as they need.
 #[derive(Debug, Clone, Default)]
 pub struct TextTable {
@@ -13,12 +15,12 @@ pub struct TextTable {
 impl TextTable {
     /// A table whose first `left` columns are aligned to the left (names), the others to the right (numbers).
     pub fn new(left: usize, header: &[&str]) -> TextTable {
-        TextTable { header: header.iter().map(|&title| title.into()).collect(), rows: Vec::new(), left }
+        TextTable { header: header.iter().map(|&title| shown(title)).collect(), rows: Vec::new(), left }
     }
 
-    /// Adds a row.
+    /// Adds a row; names in it are shown as a line can take them.
     pub fn add(&mut self, row: Vec<String>) {
-        self.rows.push(row);
+        self.rows.push(row.iter().map(|cell| shown(cell)).collect());
     }
 
     /// True without rows.
@@ -52,17 +54,12 @@ impl fmt::Display for TextTable {
     }
 }
 
-/// `1 variable`, `3 variables`.
-pub fn count(number: usize, one: &str) -> String {
-    if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
-}
-
 /// The first few names, and how many more there are.
 pub fn listing(names: impl ExactSizeIterator<Item = String>, most: usize) -> String {
     let all = names.len();
-    let shown: Vec<String> = names.take(most).collect();
-    let more = if all > shown.len() { format!(", … ({} more)", all - shown.len()) } else { String::new() };
-    format!("{}{more}", shown.join(", "))
+    let first: Vec<String> = names.take(most).map(|name| shown(&name)).collect();
+    let more = if all > first.len() { format!(", … ({} more)", all - first.len()) } else { String::new() };
+    format!("{}{more}", first.join(", "))
 }
 
 #[cfg(test)]

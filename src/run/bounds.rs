@@ -36,7 +36,7 @@ impl BoundTest {
 
 /// Drops the rows, solves, and proves where the variables went.
 pub fn bounds(subject: &Subject, choices: &[Choice], interrupt: Option<&AtomicBool>) -> BoundTest {
-    let model = BoundsOnly::new(subject.model());
+    let model = BoundsOnly::new(subject.shown());
     let task = Task {
         model: &model,
         substitution: None,

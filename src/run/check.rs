@@ -10,7 +10,7 @@ use crate::model::derivative_check::{DerivativeCheck, derivative_check};
 /// # Errors
 /// Where the model has no value near the start.
 pub fn check(subject: &Subject) -> Result<DerivativeCheck, EvaluationError> {
-    let meta = subject.model().meta();
+    let meta = subject.shown().meta();
     let nudged = |j: usize| {
         let (lower, upper, start) = (meta.lower[j], meta.upper[j], meta.start[j]);
         // Irrational and unequal from variable to variable.
@@ -20,5 +20,5 @@ pub fn check(subject: &Subject) -> Result<DerivativeCheck, EvaluationError> {
         towards.max(lower).min(upper)
     };
     let x: Vec<f64> = (0..meta.variables()).map(nudged).collect();
-    derivative_check(subject.model(), &x).or_else(|_| derivative_check(subject.model(), &meta.start))
+    derivative_check(subject.shown(), &x).or_else(|_| derivative_check(subject.shown(), &meta.start))
 }

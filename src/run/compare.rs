@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::Subject;
 use super::choice::{self, Choice};
+use super::present::present;
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Task};
 use crate::problem::Settings;
@@ -62,7 +63,7 @@ fn run(subject: &Subject, choice: &Choice, max_seconds: f64, interrupt: Option<&
     };
     let backends = [(choice.backend, choice.algorithm.as_str())];
     let mut unobserved = |_: usize, _: &str| -> Box<dyn FnMut(&Iteration<'_>)> { Box::new(|_: &Iteration<'_>| {}) };
-    let outcome = crosscheck::run(&task, &backends, &mut unobserved);
+    let outcome = present(subject, crosscheck::run(&task, &backends, &mut unobserved));
     let solution = outcome.answers.first().map(|answer| &answer.solution);
     Trial {
         file: subject.about.file.clone(),

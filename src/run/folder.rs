@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::files::STANDARD_INPUT;
+
 /// An output folder, locked for as long as this lives.
 #[derive(Debug)]
 pub struct Folder {
@@ -21,6 +23,9 @@ pub enum FolderError {
     /// Another run holds the lock.
     #[error("another run is writing to {0}; wait until it has ended, or choose another folder with --out")]
     Busy(PathBuf),
+    /// An output would take the place of a file that is none of ours.
+    #[error("{0} is no file of a ribopt run and would be overwritten; move it away, or choose another folder with --out")]
+    Foreign(PathBuf),
     /// The folder or a file in it cannot be made.
     #[error("cannot write to {path}: {cause}; choose a folder that can be written to with --out")]
     Unwritable {
@@ -61,27 +66,14 @@ impl Folder {
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
-
-    /// Removes iteration logs of an earlier run, which might belong to backends that this one does not use.
-    ///
-    /// # Errors
-    /// Where a log cannot be removed.
-    pub fn remove_old_logs(&self) -> Result<(), FolderError> {
-        let unwritable = |cause| FolderError::Unwritable { path: self.path.clone(), cause };
-        for entry in fs::read_dir(&self.path).map_err(unwritable)? {
-            let path = entry.map_err(unwritable)?.path();
-            let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
-            if name.starts_with("log-") && name.ends_with(".csv") {
-                fs::remove_file(&path).map_err(unwritable)?;
-            }
-        }
-        Ok(())
-    }
 }
 
 /// `results/<file stem>`; for a file called `problem.toml` the name of its folder.
 pub fn default_folder(problem_file: &Path) -> PathBuf {
     let mut name = problem_file.file_stem();
+    if problem_file.as_os_str() == STANDARD_INPUT {
+        name = Some(OsStr::new("stdin"));
+    }
     let absolute = std::path::absolute(problem_file).unwrap_or_else(|_| problem_file.into());
     if problem_file.file_name() == Some(OsStr::new("problem.toml"))
         && let Some(parent) = absolute.parent().and_then(Path::file_name)
@@ -100,6 +92,7 @@ mod tests {
         assert_eq!(default_folder(Path::new("problems/beam.toml")), Path::new("results/beam"));
         assert_eq!(default_folder(Path::new("shell/problem.toml")), Path::new("results/shell"));
         assert_eq!(default_folder(Path::new("/problem.toml")), Path::new("results/problem"));
+        assert_eq!(default_folder(Path::new("-")), Path::new("results/stdin"));
     }
 
     #[test]
@@ -116,17 +109,5 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         let error = Folder::open(&file.path().join("results")).unwrap_err().to_string();
         assert!(error.starts_with("cannot write to") && error.contains("--out"), "{error}");
-    }
-
-    #[test]
-    fn logs_of_an_earlier_run_go_and_other_files_stay() {
-        let place = tempfile::tempdir().unwrap();
-        for name in ["log-nlopt.csv", "result.json", "my-log.csv"] {
-            fs::write(place.path().join(name), "").unwrap();
-        }
-        Folder::open(place.path()).unwrap().remove_old_logs().unwrap();
-        let mut left: Vec<_> = fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        left.sort();
-        assert_eq!(left, [".lock", "my-log.csv", "result.json"]);
     }
 }

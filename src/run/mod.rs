@@ -6,8 +6,12 @@ pub mod choice;
 pub mod compare;
 pub mod folder;
 pub mod network;
+mod observe;
 mod pictures;
+mod present;
+mod results;
 pub mod section;
+pub mod sizes;
 mod sizing;
 pub mod solve;
 pub mod subject;
@@ -52,6 +56,9 @@ pub enum RunError {
     /// The output folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
+    /// An output that is an input.
+    #[error(transparent)]
+    Overwrites(#[from] crate::files::Overwrites),
     /// The answer to start from or to verify.
     #[error(transparent)]
     Answer(#[from] AnswerError),

@@ -2,12 +2,12 @@
 //! solve; solids and pictures of the sized ribs after it.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use super::{Subject, sizing};
+use crate::files;
 use crate::mesh::commands::{self, CommandError};
 use crate::mesh::formats::{self, FormatError};
 use crate::mesh::network::{NetworkError, RibGeometry, read_geometry};
@@ -63,7 +63,7 @@ impl Network {
     /// No table, a wrong one, one that places a rib twice or not at all, or with ends at another distance than its length.
     pub fn beside(problem_file: &Path, problem: &Problem) -> Result<Network, NetworkFailure> {
         let path = problem_file.with_file_name(GEOMETRY);
-        let file = File::open(&path).map_err(|cause| NetworkFailure::Missing { path: path.clone(), cause })?;
+        let file = files::open(&path).map_err(|cause| NetworkFailure::Missing { path: path.clone(), cause })?;
         let table = read_geometry(file).map_err(|cause| NetworkFailure::Table { path: path.clone(), cause })?;
         let mut places: HashMap<String, RibGeometry> = HashMap::with_capacity(table.len());
         for place in table {
@@ -123,9 +123,9 @@ impl Sized {
 /// Refuses a file for solids before anything is solved, where its ending names no format.
 ///
 /// # Errors
-/// An ending other than `.obj`, `.stl` and `.vtu`.
+/// An ending other than `.obj`, `.stl`, `.vtu`, `.glb` and `.dxf`.
 pub fn check_ending(out: &Path) -> Result<(), NetworkFailure> {
-    Ok(formats::check_writable(out)?)
+    Ok(formats::check_ribs_writable(out)?)
 }
 
 #[cfg(test)]

@@ -21,8 +21,8 @@ const MOST: usize = 1000;
 pub fn of_file(subject: &Subject, names: &[String], answer: Option<&Path>) -> Result<Vec<CrossSection>, RunError> {
     let problem = subject.problem();
     let x = match answer {
-        Some(path) => EarlierAnswer::read(path)?.point(subject.model())?,
-        None => subject.model().meta().start.clone(),
+        Some(path) => EarlierAnswer::read(path)?.point(subject.shown())?,
+        None => subject.shown().meta().start.clone(),
     };
     let all = &problem.sections.names;
     let chosen: Vec<usize> = match names {

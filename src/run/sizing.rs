@@ -1,15 +1,13 @@
 //! Ribs at a point: the outlines of their sections, numbers to tag them with, the volume the model gives them.
 
-use std::sync::Arc;
-
 use super::Subject;
 use super::network::{NetworkFailure, Sized};
+use super::sizes::rib_volumes;
 use super::utilisation::utilisation;
 use crate::mesh::network::RibGeometry;
 use crate::mesh::solids::{Ring, SizedRib};
-use crate::model::{EvaluationError, Model, assemble};
 use crate::problem::evaluate::Evaluation;
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope, VolumeLaw};
+use crate::problem::{Problem, VolumeLaw};
 use crate::sections;
 
 /// Tags of every rib: the dimensions at its two ends, its length and the volume the model gives it as a prismatoid.
@@ -17,7 +15,7 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
     let problem = at(subject.problem(), x);
     let shapes = (0..problem.sections.names.len()).map(|s| Shape::of(&problem, s)).collect::<Result<Vec<_>, _>>()?;
     let used = utilisation(subject, x)?;
-    let volumes = prismatoids(subject.problem(), x)?;
+    let volumes = rib_volumes(subject.problem(), x, Some(VolumeLaw::Prismatoid))?;
     let dimensions = dimension_names(&problem);
     let rib = |(r, place): (usize, &RibGeometry)| {
         let ends = [problem.ribs.from[r], problem.ribs.to[r]].map(|s| &shapes[s as usize]);
@@ -88,24 +86,4 @@ fn dimension_names(problem: &Problem) -> Vec<&'static str> {
         }
     }
     names
-}
-
-/// Every rib's volume as a prismatoid, by the model.
-fn prismatoids(problem: &Problem, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-    let mut restated = Problem { objective: Formula::default(), ..problem.clone() };
-    restated.ribs.law.fill(VolumeLaw::Prismatoid);
-    restated.constraints = vec![Constraint {
-        name: "volume".into(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),
-        left: Formula::OwnVolume,
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    }];
-    let too_dense =
-        |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "volume".into(), cause: error.to_string() };
-    let model = assemble(&Arc::new(restated)).map_err(too_dense)?;
-    let mut volumes = vec![0.0; model.meta().rows()];
-    model.constraints(x, &mut volumes)?;
-    Ok(volumes)
 }

@@ -1,20 +1,21 @@
 //! `solve`: the folder, the logs, the cross-checked run, the files it leaves.
 
-use std::cell::RefCell;
-use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use super::choice::{Choice, refuse_if_none_accepts};
-use super::folder::{Folder, FolderError, default_folder};
-use super::pictures;
-use super::{RunError, Subject, Watcher};
-use crate::backends::Iteration;
-use crate::crosscheck::{self, Outcome, Task};
-use crate::log::IterationLog;
+use super::folder::{Folder, default_folder};
+use super::observe::Records;
+use super::present::present;
+use super::results::{Ending, Results};
+use super::{RunError, Subject, Watcher, pictures, sizes, utilisation};
+use crate::crosscheck::{Outcome, Status, Task};
+use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
-use crate::report::pictures::Trace;
-use crate::report::{About, Findings, Volumes, result, tables, whole_file};
+use crate::report::{About, Findings, Volumes, result, tables};
+
+/// Rows, sections or ribs up to which utilisation, sizes and volumes are listed: beyond, the lists would take as long as the run.
+pub(super) const MOST_LISTED: usize = 300_000;
 
 /// What is asked of a run, besides the problem.
 pub struct Request<'a> {
@@ -23,7 +24,9 @@ pub struct Request<'a> {
     /// Output folder; the default where there is none.
     pub out: Option<&'a Path>,
     /// An earlier answer to start from.
-    pub start: Option<&'a Path>,
+    pub start: Option<&'a EarlierAnswer>,
+    /// Everything that was read: no output takes its place.
+    pub inputs: &'a Inputs,
     /// Starting points; 0 or 1: one.
     pub starts: usize,
     /// Leave pictures too.
@@ -40,7 +43,14 @@ pub struct Solved {
     pub outcome: Outcome,
     /// Volumes at the reported point.
     pub volumes: Option<Volumes>,
-    folder: Folder,
+    /// Mass of all ribs there, where each has a density.
+    pub mass: Option<f64>,
+    /// How far every limit is used, where all have values.
+    pub utilisation: Option<utilisation::Table>,
+    /// Why files could not be written: the answer is to be shown first.
+    pub unwritten: Option<RunError>,
+    place: PathBuf,
+    _locked: Folder,
 }
 
 impl Solved {
@@ -48,32 +58,35 @@ impl Solved {
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
         Findings {
             about: &self.about,
-            model: subject.model(),
+            model: subject.shown(),
             class: subject.class,
             outcome: &self.outcome,
             volumes: self.volumes,
+            mass: self.mass,
+            utilisation: self.utilisation.as_ref(),
         }
     }
 
     /// Where the files are.
     pub fn folder(&self) -> &Path {
-        self.folder.path()
+        &self.place
     }
 }
 
 /// Solves and leaves logs, tables and `result.json`. The watcher sees every iteration.
 ///
 /// # Errors
-/// Before anything is solved: a folder that cannot be used, an answer that cannot be read, no backend that takes the
-/// problem. Afterwards: files that cannot be written.
+/// Before anything is solved: a folder that cannot be used, no backend that takes the problem. Files that cannot be written
+/// afterwards are told by [`Solved::unwritten`].
 pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
     refuse_if_none_accepts(&request.choices, subject.model())?;
     let mut about = subject.about.clone();
-    let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings)?;
+    let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings);
     let default = default_folder(Path::new(&about.file));
-    let folder = Folder::open(request.out.unwrap_or(&default))?;
-    folder.remove_old_logs()?;
-    let logs = open_logs(subject, &request.choices, &folder)?;
+    let backends: Vec<&str> = request.choices.iter().map(|choice| choice.backend.name()).collect();
+    let results = Results::open(request.out.unwrap_or(&default), &backends, request.inputs)?;
+    about.warnings.extend(results.belongs_to_another(&about.file, &about.sha256));
+    let records = Records::open(subject, &request.choices, &results)?;
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
@@ -84,89 +97,39 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         interrupt: request.interrupt,
     };
-    let traces: Vec<_> = request.choices.iter().map(|choice| RefCell::new(Trace::new(choice.backend.name()))).collect();
-    let outcome = observed(&task, &request.choices, &logs, &traces, watcher, subject.sign());
+    let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
+    records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
-    about.warnings.extend(logs.iter().filter_map(|log| log.borrow().failure()));
+    about.warnings.extend(records.failures());
     let volumes = subject.volumes(&outcome.x);
-    let solved = Solved { about, outcome, volumes, folder };
-    leave_files(&solved.findings(subject), &solved.folder)?;
-    if request.plot {
-        let traces: Vec<Trace> = traces.into_iter().map(RefCell::into_inner).collect();
-        let start = solved.outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
-        pictures::leave(&traces, start, subject, &solved)?;
-    }
-    Ok(solved)
-}
-
-fn starting_point(
-    subject: &Subject,
-    answer: Option<&Path>,
-    warnings: &mut Vec<String>,
-) -> Result<(Vec<f64>, Option<Vec<f64>>), RunError> {
-    let Some(path) = answer else {
-        return Ok((subject.model().meta().start.clone(), None));
-    };
-    let answer = EarlierAnswer::read(path)?;
-    let (start, remarks) = answer.start(subject.model());
-    warnings.extend(remarks);
-    Ok((start, answer.multipliers(subject.model(), subject.sign())))
-}
-
-/// Logs are opened before anything is solved: a disk that cannot be written to is told at once.
-fn open_logs(subject: &Subject, choices: &[Choice], folder: &Folder) -> Result<Vec<RefCell<IterationLog>>, RunError> {
-    let model = subject.model();
-    let open = |choice: &Choice| {
-        let path = folder.file(&format!("log-{}.csv", choice.backend.name()));
-        let log = IterationLog::create(&path, model.meta().variables(), |j| model.variable_name(j));
-        log.map(RefCell::new).map_err(|cause| RunError::from(FolderError::Unwritable { path, cause }))
-    };
-    choices.iter().map(open).collect()
-}
-
-/// The cross-checked run, every iteration logged and shown.
-fn observed(
-    task: &Task<'_>,
-    choices: &[Choice],
-    logs: &[RefCell<IterationLog>],
-    traces: &[RefCell<Trace>],
-    watcher: &mut dyn Watcher,
-    sign: f64,
-) -> Outcome {
-    let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
-    let watcher = RefCell::new(watcher);
-    let mut begun = vec![false; choices.len()];
-    let mut observe = |at: usize, algorithm: &str| -> Box<dyn FnMut(&Iteration<'_>) + '_> {
-        let (log, trace) = (logs.get(at), traces.get(at));
-        if let (Some(log), Some(begun @ false)) = (log, begun.get_mut(at)) {
-            log.borrow_mut().begin();
-            *begun = true;
+    let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
+    let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
+    let mass = sizes::mass(subject.problem(), &outcome.x);
+    let (model, class) = (subject.shown(), subject.class);
+    let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
+    let ending =
+        Ending { sha256: &about.sha256, cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached) };
+    let (locked, place, written) = results.leave(ending, |files| {
+        files.file("variables.csv", |out| tables::variables(&findings, out))?;
+        files.file("constraints.csv", |out| tables::constraints(&findings, out))?;
+        if let Some(table) = &utilisation {
+            files.file("utilisation.csv", |out| table.write_csv(out))?;
         }
-        watcher.borrow_mut().begin(choices.get(at).map_or("", |choice| choice.backend.name()), algorithm);
-        let watcher = &watcher;
-        Box::new(move |iteration: &Iteration<'_>| {
-            let in_users_sense = Iteration { objective: sign * iteration.objective, ..*iteration };
-            if let Some(log) = log {
-                log.borrow_mut().add(&in_users_sense);
-            }
-            if let Some(trace) = trace {
-                trace.borrow_mut().add([in_users_sense.objective, iteration.feasibility, iteration.optimality]);
-            }
-            watcher.borrow_mut().iteration(&in_users_sense);
-        })
-    };
-    let outcome = crosscheck::run(task, &backends, &mut observe);
-    watcher.borrow_mut().end();
-    outcome
+        sizes::leave(subject, &outcome.x, files)?;
+        files.file("result.json", |out| result::write(&findings, out))?;
+        if request.plot {
+            let start = outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
+            let start = &start[..start.len().min(subject.shown().meta().variables())];
+            pictures::leave(&records.traces(&outcome), start, subject, &findings, files)?;
+        }
+        Ok(())
+    });
+    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
 }
 
-fn leave_files(findings: &Findings<'_>, folder: &Folder) -> Result<(), RunError> {
-    let write = |name: &str, content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>| {
-        let path = folder.file(name);
-        whole_file::write(&path, |out| content(out)).map_err(|cause| FolderError::Unwritable { path, cause })
-    };
-    write("variables.csv", &|out| tables::variables(findings, out))?;
-    write("constraints.csv", &|out| tables::constraints(findings, out))?;
-    write("result.json", &|out| result::write(findings, out))?;
-    Ok(())
+fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {
+    let Some(answer) = answer else { return (subject.model().meta().start.clone(), None) };
+    let (start, remarks) = answer.start(subject.shown());
+    warnings.extend(remarks);
+    (subject.completed(start), answer.multipliers(subject.model(), subject.sign()))
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RunError;
+use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
@@ -25,10 +26,14 @@ pub struct Subject {
     pub class: Class,
     /// Tolerances and limits: the file's, unless the command line changed them.
     pub settings: Settings,
+    /// The file and its tables.
+    pub inputs: Inputs,
     /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
     pub warnings: Vec<String>,
-    problem: Arc<Problem>,
+    /// The model that is solved.
     model: Arc<RibModel>,
+    /// The same as it was written: kinks stay, and there are no auxiliaries.
+    shown: Arc<RibModel>,
     /// Which terms keep it from being a geometric program and from being convex.
     pub not_geometric: Option<String>,
     /// Which term keeps it from being convex.
@@ -55,6 +60,8 @@ impl Subject {
             RunError::Input(mistakes.to_string(), list)
         })?;
         let mut subject = Subject::assemble(input.problem.without_kinks(), file, input.sha256)?;
+        subject.inputs = Inputs::new(input.files);
+        subject.about.changes = changes.to_vec();
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
         Ok(subject)
     }
@@ -74,12 +81,17 @@ impl Subject {
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
             warnings: problem.warnings.clone(),
+            changes: Vec::new(),
         };
         let too_dense = |error: AssemblyError| {
             let mistake = Mistake { file: Some(about.file.clone()), ..Mistake::of_command(error.to_string()) };
             RunError::Input(format!("mistake: {error}\n--> {}", about.file), vec![mistake])
         };
         let model = Arc::new(assemble(&problem).map_err(too_dense)?);
+        let shown = match problem.auxiliaries.is_empty() {
+            true => Arc::clone(&model),
+            false => Arc::new(assemble(&Arc::new(problem.with_kinks())).map_err(too_dense)?),
+        };
         let Classification { class, logarithmic, not_geometric, not_convex } = classify(&model).map_err(too_dense)?;
         let substitution = match logarithmic {
             _ if is_dust(&model) => None,
@@ -89,24 +101,37 @@ impl Subject {
         Ok(Subject {
             class,
             settings: problem.settings.clone(),
+            inputs: Inputs::new([file.to_path_buf()]),
             warnings: Vec::new(),
             about,
-            problem,
             model,
+            shown,
             not_geometric,
             not_convex,
             substitution,
         })
     }
 
-    /// The problem in the user's variables, minimised.
+    /// The problem in the user's variables, and auxiliaries where kinks were restated, minimised.
     pub fn model(&self) -> &dyn Model {
         self.model.as_ref()
     }
 
-    /// The declaration.
+    /// The problem in the user's variables alone, with all its kinks: what reports speak of.
+    pub fn shown(&self) -> &dyn Model {
+        self.shown.as_ref()
+    }
+
+    /// A point in the user's variables with the auxiliaries that follow from it.
+    pub fn completed(&self, mut x: Vec<f64>) -> Vec<f64> {
+        x.extend(self.model.meta().start.iter().skip(x.len()));
+        self.model.complete(&mut x);
+        x
+    }
+
+    /// The declaration, as it was written.
     pub fn problem(&self) -> &Problem {
-        &self.problem
+        self.shown.problem()
     }
 
     /// The same in variables that are easier to solve in, where there are any.
@@ -116,15 +141,16 @@ impl Subject {
 
     /// −1 where the user maximises.
     pub fn sign(&self) -> f64 {
-        report::sign(self.problem.sense)
+        report::sign(self.problem().sense)
     }
 
     /// Total volumes at a point, where there are ribs and they have a volume there.
     pub fn volumes(&self, x: &[f64]) -> Option<Volumes> {
-        if self.problem.ribs.names.is_empty() {
+        let problem = self.problem();
+        if problem.ribs.names.is_empty() {
             return None;
         }
-        let totals = volumes(&self.problem, x, [Total::Own, Total::Frustum, Total::Prismatoid]);
+        let totals = volumes(problem, x, [Total::Own, Total::Frustum, Total::Prismatoid]);
         let [total, frustum, prismatoid] = totals.or_else(|| self.assembled_volumes(x))?;
         Some(Volumes { total, frustum, prismatoid })
     }
@@ -133,7 +159,7 @@ impl Subject {
     fn assembled_volumes(&self, x: &[f64]) -> Option<[f64; 3]> {
         let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
         let objective = Formula::default();
-        let problem = Problem { constraints: rows.into(), objective, ..Problem::clone(&self.problem) };
+        let problem = Problem { constraints: rows.into(), objective, ..self.problem().clone() };
         let model = assemble(&Arc::new(problem)).ok()?;
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;

@@ -15,6 +15,7 @@ use crate::problem::formula::Total;
 use crate::problem::{
     Constraint, Dimension, Formula, Limit, Origin, Problem, Property, Ribs, Scope, Sections, Variables, VolumeLaw,
 };
+use crate::report::answer::EarlierAnswer;
 use crate::sections;
 
 /// Two rectangles b × h, one rib of length 3 between them; Ix of the first at least 1e-4.
@@ -39,6 +40,7 @@ fn rib() -> Problem {
             lower: vec![0.05, 0.1, 0.05, 0.1],
             upper: vec![0.4, 0.6, 0.4, 0.6],
             start: vec![0.2, 0.3, 0.2, 0.3],
+            typical: Vec::new(),
         },
         sections: Sections {
             names: ["left", "right"].into_iter().collect(),
@@ -64,9 +66,9 @@ fn subject() -> Subject {
     Subject::assemble(rib(), Path::new("rib.toml"), "00".into()).unwrap()
 }
 
-fn request<'a>(subject: &Subject, out: &'a Path) -> Request<'a> {
+fn request<'a>(subject: &'a Subject, out: &'a Path) -> Request<'a> {
     let choices = choose(&[], None, &subject.settings).unwrap();
-    Request { choices, out: Some(out), start: None, starts: 1, plot: false, interrupt: None }
+    Request { choices, out: Some(out), start: None, inputs: &subject.inputs, starts: 1, plot: false, interrupt: None }
 }
 
 #[test]
@@ -89,6 +91,7 @@ fn an_earlier_answer_is_a_start() {
     let (subject, folder) = (subject(), tempfile::tempdir().unwrap());
     drop(solve(&subject, &request(&subject, folder.path()), &mut ()).unwrap());
     let (earlier, again) = (folder.path().join("result.json"), folder.path().join("again"));
+    let earlier = EarlierAnswer::read(&earlier).unwrap();
     let request = Request { start: Some(&earlier), ..request(&subject, &again) };
     assert_eq!(solve(&subject, &request, &mut ()).unwrap().outcome.status, Status::Certified);
 }

@@ -1,16 +1,18 @@
-//! How far each rib's limits are used at a point.
+//! How far limits are used at a point.
 //!
 //! A row's use is value/limit where it is held from above and limit/value where it is held from below; both sides may vary
-//! (`h <= 8*b`: h over 8b). It counts for the rib it is stated for, for the ribs at both sides of the section it is stated
-//! for, for every member of its group, and for what its text names. Equalities are always met, so they count nowhere, nor do
-//! limits of 0, which have no shares.
+//! (`h <= 8*b`: h over 8b). For a rib it counts what is stated for it, for its group, for the sections at its ends, and what
+//! names it. Equalities are always met, so they count nowhere, nor do limits of 0, which have no shares.
 
 use std::sync::Arc;
 
 use super::Subject;
 use crate::expression::ast::Collection;
+use crate::expression::operators::Binary;
 use crate::model::{EvaluationError, Model, assemble};
-use crate::problem::{Constraint, Formula, Limit, Problem};
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+pub use crate::report::utilisation::Table;
+use crate::report::utilisation::{Declared, Loaded, Use};
 
 /// A use this large or larger is shown as this: limits whose value has the wrong sign have no share.
 const MOST: f64 = 1e6;
@@ -21,90 +23,179 @@ const MOST: f64 = 1e6;
 /// A side of a row that has no value at this point.
 pub fn utilisation(subject: &Subject, x: &[f64]) -> Result<Vec<Option<f64>>, EvaluationError> {
     let problem = subject.problem();
-    let mut found = Found::new(problem);
-    let uses = uses(problem, x)?;
-    for (constraint, uses) in problem.constraints.iter().zip(&uses) {
-        let named = constraint.named(problem);
-        let largest = uses.iter().flatten().copied().reduce(f64::max);
-        named.sections.iter().for_each(|&s| found.note(Collection::Sections, s, largest));
-        named.ribs.iter().for_each(|&r| found.note(Collection::Ribs, r, largest));
-        for (row, &used) in uses.iter().enumerate() {
-            let (collection, items) = constraint.own(row);
-            items.iter().for_each(|&item| found.note(collection, item, used));
-        }
-    }
-    Ok(found.of_ribs(problem))
+    let found = Found::of(problem, &uses(subject, x)?);
+    let section = |s: u32| found.sections.get(s as usize).copied().flatten();
+    let ends = problem.ribs.from.iter().zip(&problem.ribs.to);
+    // A rib's own, and those of its ends.
+    let both = |(own, (&from, &to)): (&Option<Most>, (&u32, &u32))| larger(*own, larger(section(from), section(to)));
+    Ok(found.ribs.iter().zip(ends).map(|pair| both(pair).map(|most| most.share)).collect())
 }
 
+/// All limits with their values, and the sections and ribs by what uses them most.
+///
+/// # Errors
+/// A side of a row that has no value at this point.
+pub fn table(subject: &Subject, x: &[f64]) -> Result<Table, EvaluationError> {
+    let problem = subject.problem();
+    let uses = uses(subject, x)?;
+    let found = Found::of(problem, &uses);
+    let constraints = problem.constraints.iter().map(|own| Declared { name: own.name.clone(), of: of(&own.scope) }).collect();
+    let mut table = Table { constraints, uses: uses.into_iter().map(|row| row.used).collect(), items: Vec::new() };
+    let all = [("section", Collection::Sections, &found.sections), ("rib", Collection::Ribs, &found.ribs)];
+    for (of, collection, list) in all {
+        for (index, most) in list.iter().enumerate() {
+            let Some(Most { share, at }) = *most else { continue };
+            let row = table.uses.get(at).map_or_else(String::new, |used| table.row_name(used));
+            table.items.push(Loaded { of, name: problem.item_name(collection, index as u32).into(), row, share });
+        }
+    }
+    table.items.sort_by(|a, b| b.share.total_cmp(&a.share));
+    Ok(table)
+}
+
+fn of(scope: &Scope) -> &'static str {
+    match scope {
+        Scope::Once => "",
+        Scope::Sections(_) => "section",
+        Scope::Ribs(_) => "rib",
+        Scope::RibGroups(_) | Scope::SectionGroups(_) => "group",
+    }
+}
+
+/// A share, and the use it is of.
+#[derive(Debug, Clone, Copy)]
+struct Most {
+    share: f64,
+    at: usize,
+}
+
+fn larger(a: Option<Most>, b: Option<Most>) -> Option<Most> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.share > a.share { b } else { a }),
+        (one, other) => one.or(other),
+    }
+}
+
+/// The largest use of every section and rib.
 struct Found {
-    sections: Vec<Option<f64>>,
-    ribs: Vec<Option<f64>>,
+    sections: Vec<Option<Most>>,
+    ribs: Vec<Option<Most>>,
 }
 
 impl Found {
-    fn new(problem: &Problem) -> Self {
-        Found { sections: vec![None; problem.sections.names.len()], ribs: vec![None; problem.ribs.names.len()] }
+    fn of(problem: &Problem, uses: &[Row]) -> Found {
+        let (sections, ribs) = (problem.sections.names.len(), problem.ribs.names.len());
+        let mut found = Found { sections: vec![None; sections], ribs: vec![None; ribs] };
+        let mut first = 0;
+        for (number, constraint) in problem.constraints.iter().enumerate() {
+            let count = uses[first..].iter().take_while(|row| row.used.constraint == number).count();
+            let rows = first..first + count;
+            first += count;
+            let shares = rows.filter_map(|at| Some((at, uses[at].row, Most { share: uses[at].used.share?, at })));
+            let shares: Vec<(usize, usize, Most)> = shares.collect();
+            let largest = shares.iter().map(|(.., most)| *most).map(Some).fold(None, larger);
+            let named = constraint.named(problem);
+            named.sections.iter().for_each(|&s| found.note(Collection::Sections, s, largest));
+            named.ribs.iter().for_each(|&r| found.note(Collection::Ribs, r, largest));
+            for (_, row, most) in shares {
+                let (collection, items) = constraint.own(row);
+                items.iter().for_each(|&item| found.note(collection, item, Some(most)));
+            }
+        }
+        found
     }
 
-    fn note(&mut self, collection: Collection, item: u32, used: Option<f64>) {
+    fn note(&mut self, collection: Collection, item: u32, used: Option<Most>) {
         let all = if collection == Collection::Sections { &mut self.sections } else { &mut self.ribs };
         if let Some(known) = all.get_mut(item as usize) {
             *known = larger(*known, used);
         }
     }
+}
 
-    /// A rib's own, and those of its ends.
-    fn of_ribs(self, problem: &Problem) -> Vec<Option<f64>> {
-        let section = |s: u32| self.sections.get(s as usize).copied().flatten();
-        let ends = problem.ribs.from.iter().zip(&problem.ribs.to);
-        let both = |(own, (&from, &to)): (&Option<f64>, (&u32, &u32))| larger(*own, larger(section(from), section(to)));
-        self.ribs.iter().zip(ends).map(both).collect()
+/// A limit of row number `row` of its constraint.
+struct Row {
+    row: usize,
+    used: Use,
+}
+
+/// Every limit, constraint by constraint.
+fn uses(subject: &Subject, x: &[f64]) -> Result<Vec<Row>, EvaluationError> {
+    let (problem, model) = (subject.problem(), subject.shown());
+    let meta = model.meta();
+    let mut values = vec![0.0; meta.rows()];
+    model.constraints(x, &mut values)?;
+    let sides = both_sides(problem, x)?;
+    let (mut first, mut varying, mut all) = (0, 0, Vec::with_capacity(values.len()));
+    for (number, constraint) in problem.constraints.iter().enumerate() {
+        let rows = constraint.scope.rows().min(values.len() - first);
+        let both = varies(constraint).is_some();
+        for row in 0..rows {
+            let i = first + row;
+            let equality = matches!(constraint.right, Limit::Equal(_));
+            let mut push = |value: f64, from_above: bool, limit: f64| {
+                let share = if from_above { share(value, limit) } else { share(-value, -limit) }.filter(|_| !equality);
+                let item = item(problem, constraint, row);
+                all.push(Row { row, used: Use { constraint: number, item, value, from_above, limit, share } });
+            };
+            let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
+            match both.then(|| (sides[varying + row], sides[varying + rows + row])) {
+                Some((left, right)) => push(left, upper.is_finite(), right),
+                None => {
+                    if upper.is_finite() {
+                        push(values[i], true, upper);
+                    }
+                    if lower.is_finite() && !equality {
+                        push(values[i], false, lower);
+                    }
+                }
+            }
+        }
+        first += rows;
+        varying += if both { 2 * rows } else { 0 };
+    }
+    Ok(all)
+}
+
+/// The item in the row's name.
+fn item(problem: &Problem, constraint: &Constraint, row: usize) -> String {
+    match &constraint.scope {
+        Scope::Once => String::new(),
+        Scope::RibGroups(groups) | Scope::SectionGroups(groups) => groups.get(row).map_or("", |group| &group.0).into(),
+        Scope::Sections(list) | Scope::Ribs(list) => {
+            let (collection, _) = constraint.own(row);
+            list.get(row).map_or("", |&index| problem.item_name(collection, index)).into()
+        }
     }
 }
 
-fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.max(b)),
-        (one, other) => one.or(other),
+/// The two sides of a row that is held as their difference against 0.
+fn varies(constraint: &Constraint) -> Option<[&Formula; 2]> {
+    let against_zero = constraint.right.formulas().all(|limit| limit.as_constant() == Some(0.0));
+    match &constraint.left {
+        Formula::Binary(Binary::Subtract, left, right) if against_zero => Some([left, right]),
+        _ => None,
     }
 }
 
-/// The use of every row, constraint by constraint. Each constraint becomes three: its left side and both its limits, free.
-fn uses(problem: &Problem, x: &[f64]) -> Result<Vec<Vec<Option<f64>>>, EvaluationError> {
-    let zero = Formula::Constant(0.0);
-    let sides = problem.constraints.iter().flat_map(|constraint| {
-        let [lower, upper] = constraint.right.sides().map(|side| side.unwrap_or(&zero));
-        [&constraint.left, lower, upper].map(|side| free(constraint, side))
-    });
-    let constraints = sides.collect();
+/// Values of both sides of such rows, left sides of a constraint before its right sides.
+fn both_sides(problem: &Problem, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+    let free = |constraint: &Constraint, side: &Formula| {
+        let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
+        Constraint { left: side.clone(), right, ..constraint.clone() }
+    };
+    let sides = problem.constraints.iter().filter_map(|constraint| Some(varies(constraint)?.map(|side| free(constraint, side))));
+    let constraints: Vec<Constraint> = sides.flatten().collect();
+    if constraints.is_empty() {
+        return Ok(Vec::new());
+    }
     let restated = Problem { constraints, objective: Formula::default(), ..problem.clone() };
     let too_dense =
         |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "utilisation".into(), cause: error.to_string() };
     let model = assemble(&Arc::new(restated)).map_err(too_dense)?;
     let mut values = vec![0.0; model.meta().rows()];
     model.constraints(x, &mut values)?;
-    let mut rest = values.as_slice();
-    let of_constraint = |constraint: &Constraint| {
-        let rows = constraint.scope.rows().min(rest.len() / 3);
-        let (own, others) = rest.split_at(3 * rows);
-        rest = others;
-        let [has_lower, has_upper] = constraint.right.sides().map(|side| side.is_some());
-        let equality = matches!(constraint.right, Limit::Equal(_));
-        let used = |row: usize| {
-            let [value, lower, upper] = [own[row], own[rows + row], own[2 * rows + row]];
-            let below = if has_lower { share(-value, -lower) } else { None };
-            let above = if has_upper { share(value, upper) } else { None };
-            larger(below, above).filter(|_| !equality)
-        };
-        (0..rows).map(used).collect()
-    };
-    Ok(problem.constraints.iter().map(of_constraint).collect())
-}
-
-/// The same rows with one side alone and no limit.
-fn free(constraint: &Constraint, side: &Formula) -> Constraint {
-    let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
-    Constraint { left: side.clone(), right, ..constraint.clone() }
+    Ok(values)
 }
 
 /// How much of `value <= limit` is used: 1 where they are equal, 0 where value is on the other side of 0 than a positive limit.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::present::present;
 use super::{RunError, Subject};
 use crate::certificate::{Certificate, Scope, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
@@ -12,7 +13,7 @@ use crate::report::answer::EarlierAnswer;
 /// # Errors
 /// Where the answer cannot be read or is not a point of this problem.
 pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
-    let x = EarlierAnswer::read(answer)?.point(subject.model())?;
+    let x = subject.completed(EarlierAnswer::read(answer)?.point(subject.shown())?);
     let settings = &subject.settings;
     let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
     let outcome = match certify(subject.model(), subject.class, &x, None, tolerances) {
@@ -27,7 +28,7 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
             ..Outcome::default()
         },
     };
-    Ok(outcome)
+    Ok(present(subject, outcome))
 }
 
 fn message(certificate: &Certificate, sign: f64) -> String {

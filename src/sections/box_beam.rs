@@ -1,6 +1,6 @@
 //! `box`: outer width b and height h, wall thicknesses tw (webs, upright) and tf (flanges, level).
 
-use super::build::{monomial, symmetric_modulus};
+use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -48,6 +48,14 @@ impl Shape {
         graph.add(webs, flanges)
     }
 
+    /// b·tf·(h − tf) + tw·hi²/2
+    fn plastic(&self, graph: &mut Graph) -> NodeId {
+        let arm = graph.subtract(self.depth, self.flange);
+        let flanges = monomial(graph, 1.0, &[(self.width, 1.0), (self.flange, 1.0), (arm, 1.0)]);
+        let webs = monomial(graph, 0.5, &[(self.web, 1.0), (self.inner_depth, 2.0)]);
+        graph.add(flanges, webs)
+    }
+
     /// Width and depth between the walls' middles.
     fn middle_line(&self, graph: &mut Graph) -> (NodeId, NodeId) {
         (graph.subtract(self.width, self.web), graph.subtract(self.depth, self.flange))
@@ -90,7 +98,29 @@ impl Kind for BoxBeam {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["b", "h", "tw", "tf", "bi", "hi", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
+        &[
+            "b",
+            "h",
+            "tw",
+            "tf",
+            "bi",
+            "hi",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
+            "height",
+        ]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
@@ -117,7 +147,14 @@ impl Kind for BoxBeam {
             "J" => upright.torsion(graph),
             "Asx" => level.shear_area(graph),
             "Asy" => upright.shear_area(graph),
-            _ => return None,
+            "Wplx" => upright.plastic(graph),
+            "Wply" => level.plastic(graph),
+            // The outer one, which is painted.
+            "perimeter" => {
+                let sum = graph.add(b, h);
+                graph.scale(2.0, sum)
+            }
+            _ => return radius(self, graph, given, name),
         })
     }
 

@@ -1,7 +1,8 @@
 //! Shorthand for the nodes of section formulas.
 
+use super::{Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
-use crate::expression::operators::Binary;
+use crate::expression::operators::{Binary, Unary};
 
 /// factor·Π node^exponent; a node that comes twice is raised once.
 pub(super) fn monomial(graph: &mut Graph, factor: f64, powers: &[(NodeId, f64)]) -> NodeId {
@@ -18,6 +19,19 @@ pub(super) fn monomial(graph: &mut Graph, factor: f64, powers: &[(NodeId, f64)])
         Some(product) => graph.scale(factor, product),
         None => graph.constant(factor),
     }
+}
+
+/// `ix`, `iy`, `imin`: the radius of gyration √(I/A) of the moment named alike.
+pub(super) fn radius(kind: &dyn Kind, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
+    let moment = match name {
+        "ix" => "Ix",
+        "iy" => "Iy",
+        "imin" => "Imin",
+        _ => return None,
+    };
+    let (moment, area) = (kind.property(graph, given, moment)?, kind.property(graph, given, "A")?);
+    let square = graph.divide(moment, area);
+    Some(graph.unary(Unary::Sqrt, square))
 }
 
 /// The smallest or largest of some nodes, balanced; `None` of none.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::build::monomial;
+use super::build::{monomial, radius};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Superellipse;
@@ -23,7 +23,7 @@ impl Kind for Circle {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["d", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
+        &["d", "A", "Ix", "Iy", "Wx", "Wy", "Wplx", "Wply", "ix", "iy", "J", "Asx", "Asy", "perimeter", "width", "height"]
     }
 
     /// J is exact; shear areas 6/7·A (Cowper, *J. Appl. Mech.* 33, 1966, at ν = 0).
@@ -37,7 +37,9 @@ impl Kind for Circle {
             "Wx" | "Wy" => power(PI / 32.0, 3.0),
             "J" => power(PI / 32.0, 4.0),
             "Asx" | "Asy" => power(6.0 / 7.0 * PI / 4.0, 2.0),
-            _ => return None,
+            "Wplx" | "Wply" => power(1.0 / 6.0, 3.0),
+            "perimeter" => power(PI, 1.0),
+            _ => return radius(self, graph, given, name),
         })
     }
 

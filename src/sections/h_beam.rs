@@ -2,7 +2,7 @@
 //!
 //! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
 
-use super::build::{monomial, symmetric_modulus};
+use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
@@ -78,6 +78,12 @@ impl Shape {
         graph.add(flanges, web)
     }
 
+    /// h − tf, between the flanges' middles: hw + tf.
+    fn arm(&self, graph: &mut Graph) -> NodeId {
+        let tf = graph.scale(0.5, self.t);
+        graph.add(self.hw, tf)
+    }
+
     /// Iy = (t·b³ + hw·tw³)/12
     fn iy(&self, graph: &mut Graph) -> NodeId {
         let (b3, tw3) = (graph.power(self.b, 3.0), graph.power(self.tw, 3.0));
@@ -98,7 +104,31 @@ impl Kind for HBeam {
 
     fn properties(&self) -> &'static [&'static str] {
         &[
-            "tw", "hw", "b", "tf", "h", "b1", "h1", "b2", "h2", "t", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width",
+            "tw",
+            "hw",
+            "b",
+            "tf",
+            "h",
+            "b1",
+            "h1",
+            "b2",
+            "h2",
+            "t",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Iw",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
             "height",
         ]
     }
@@ -136,7 +166,32 @@ impl Kind for HBeam {
                 let middle = graph.add(shape.hw, tf);
                 graph.multiply(shape.tw, middle)
             }
-            _ => return None,
+            // b·tf·(h − tf) + tw·hw²/4
+            "Wplx" => {
+                let arm = shape.arm(graph);
+                let flanges = monomial(graph, 0.5, &[(shape.b, 1.0), (shape.t, 1.0), (arm, 1.0)]);
+                let web = monomial(graph, 0.25, &[(shape.tw, 1.0), (shape.hw, 2.0)]);
+                graph.add(flanges, web)
+            }
+            // tf·b²/2 + hw·tw²/4
+            "Wply" => {
+                let flanges = monomial(graph, 0.25, &[(shape.t, 1.0), (shape.b, 2.0)]);
+                let web = monomial(graph, 0.25, &[(shape.hw, 1.0), (shape.tw, 2.0)]);
+                graph.add(flanges, web)
+            }
+            // tf·b³·(h − tf)²/24
+            "Iw" => {
+                let arm = shape.arm(graph);
+                monomial(graph, 1.0 / 48.0, &[(shape.t, 1.0), (shape.b, 3.0), (arm, 2.0)])
+            }
+            // 4·b + 2·h − 2·tw
+            "perimeter" => {
+                let double = graph.scale(2.0, shape.b);
+                let sum = graph.add(double, shape.h);
+                let open = graph.subtract(sum, shape.tw);
+                graph.scale(2.0, open)
+            }
+            _ => return radius(self, graph, given, name),
         })
     }
 

@@ -8,6 +8,7 @@ mod build;
 mod circle;
 mod h_beam;
 mod outline;
+mod pieces;
 mod polygon;
 mod polyline;
 mod rectangle;
@@ -145,6 +146,9 @@ pub static KINDS: &[&dyn Kind] = &[
     &tube::Tube,
     &polygon::Polygon,
     &polyline::Polyline,
+    &pieces::ISection,
+    &pieces::Channel,
+    &pieces::Angle,
 ];
 
 /// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.

@@ -1,6 +1,6 @@
 //! `rectangle`: width b, height h.
 
-use super::build::monomial;
+use super::build::{monomial, radius};
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
@@ -21,7 +21,7 @@ impl Kind for Rectangle {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["b", "h", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
+        &["b", "h", "A", "Ix", "Iy", "Wx", "Wy", "Wplx", "Wply", "ix", "iy", "J", "Asx", "Asy", "perimeter", "width", "height"]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
@@ -36,8 +36,14 @@ impl Kind for Rectangle {
             "Wx" => product(1.0 / 6.0, 1.0, 2.0),
             "Wy" => product(1.0 / 6.0, 2.0, 1.0),
             "Asx" | "Asy" => product(5.0 / 6.0, 1.0, 1.0),
+            "Wplx" => product(0.25, 1.0, 2.0),
+            "Wply" => product(0.25, 2.0, 1.0),
             "J" => torsion(graph, b, h),
-            _ => return None,
+            "perimeter" => {
+                let sum = graph.add(b, h);
+                graph.scale(2.0, sum)
+            }
+            _ => return radius(self, graph, given, name),
         })
     }
 

@@ -1,6 +1,6 @@
 //! `tee`: a web tw × hw under a flange b × tf, overall height h = hw + tf.
 
-use super::build::{monomial, symmetric_modulus};
+use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
@@ -134,6 +134,10 @@ impl Kind for Tee {
             "Wx_top",
             "Wx_bottom",
             "Wy",
+            "Wply",
+            "ix",
+            "iy",
+            "perimeter",
             "J",
             "Asx",
             "Asy",
@@ -183,7 +187,17 @@ impl Kind for Tee {
                 let depth = graph.add(shape.hw, half);
                 monomial(graph, 5.0 / 6.0, &[(shape.tw, 1.0), (depth, 1.0)])
             }
-            _ => return None,
+            // (tf·b² + hw·tw²)/4
+            "Wply" => {
+                let flange = monomial(graph, 0.25, &[(shape.tf, 1.0), (shape.b, 2.0)]);
+                let web = monomial(graph, 0.25, &[(shape.hw, 1.0), (shape.tw, 2.0)]);
+                graph.add(flange, web)
+            }
+            "perimeter" => {
+                let sum = graph.add(shape.b, shape.h);
+                graph.scale(2.0, sum)
+            }
+            _ => return radius(self, graph, given, name),
         })
     }
 

@@ -44,6 +44,10 @@ const CASES: &[Case] = &[
     Case { kind: "polyline", form: 0, given: &[0.05], outline: RING },
     Case { kind: "polyline", form: 4, given: &[0.05, 0.03, 0.04, 0.05], outline: RING },
     Case { kind: "polyline", form: 3, given: &[0.05, 0.03, 0.04], outline: STEPPED },
+    Case { kind: "i-section", form: 0, given: &[0.02, 0.4, 0.2, 0.03, 0.3, 0.04], outline: &[] },
+    Case { kind: "channel", form: 0, given: &[0.02, 0.4, 0.15, 0.03], outline: &[] },
+    Case { kind: "channel", form: 1, given: &[0.02, 0.15, 0.03, 0.46], outline: &[] },
+    Case { kind: "angle", form: 0, given: &[0.15, 0.25, 0.02], outline: &[] },
 ];
 
 fn rings(outline: &[&[[f64; 2]]]) -> Vec<Ring> {
@@ -110,6 +114,74 @@ fn properties_are_those_of_the_outline() {
     }
 }
 
+/// ∫|y − y0| dA of a polygon about the level y0, by thin strips.
+fn first_moment(polygon: &Polygon, d: usize) -> f64 {
+    let rings = polygon.rings();
+    let all = || rings[0].iter().map(|vertex| vertex[d]);
+    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    let strips = 40_000;
+    let step = (high - low) / f64::from(strips);
+    let chord = |at: f64| -> f64 {
+        let mut crossings = Vec::new();
+        for ring in rings.iter() {
+            for (p, q) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+                if (p[d] > at) != (q[d] > at) {
+                    crossings.push(p[1 - d] + (at - p[d]) / (q[d] - p[d]) * (q[1 - d] - p[1 - d]));
+                }
+            }
+        }
+        crossings.sort_by(f64::total_cmp);
+        crossings.chunks(2).map(|pair| pair[1] - pair[0]).sum()
+    };
+    (0..strips).map(|k| low + (f64::from(k) + 0.5) * step).map(|at| at.abs() * chord(at) * step).sum()
+}
+
+#[test]
+fn plastic_moduli_perimeters_and_radii_are_those_of_the_outline() {
+    for case in CASES.iter().filter(|case| !case.kind.starts_with("poly") && case.kind != "superellipse") {
+        let rings = case.kind().rings(case.form(), case.given, &case.outline(), 1e-8);
+        let polygon = Polygon::new(rings[0].clone(), rings[1..].to_vec()).unwrap();
+        let around = |ring: &Ring| {
+            let sides = ring.iter().zip(ring.iter().cycle().skip(1));
+            sides.map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).sum::<f64>()
+        };
+        let own = polygon.properties();
+        let expected = [
+            // Symmetric about the axis concerned: the plastic axis is the elastic one.
+            ("Wplx", first_moment(&polygon, 1)),
+            ("Wply", first_moment(&polygon, 0)),
+            ("perimeter", around(&rings[0])),
+            ("ix", (own.ix / own.area).sqrt()),
+            ("iy", (own.iy / own.area).sqrt()),
+        ];
+        for (name, expected) in expected {
+            let Some(ours) = case.value(name) else { continue };
+            assert!((ours / expected - 1.0).abs() < 2e-4, "{} {name}: {ours} {expected}", case.kind);
+        }
+    }
+}
+
+#[test]
+fn warping_and_the_weaker_axis_as_in_tables() {
+    let of = |kind_name: &str, given: &[f64], name: &str| {
+        let kind = kind(kind_name).unwrap();
+        evaluate(kind, &kind.forms()[0], given, &[], name).unwrap()
+    };
+    // HEA 200 without its fillets; tables (EN 10365) give Iw = 108 000 cm⁶ and Wpl,y = 429.5 cm³ with them.
+    let hea = [0.65, 17.0, 20.0, 1.0];
+    assert!((of("h-beam", &hea, "Iw") / 108_000.0 - 1.0).abs() < 0.01);
+    assert!((of("h-beam", &hea, "Wplx") / 429.5 - 1.0).abs() < 0.06);
+    // Equal flanges make the I the H.
+    let i = [0.65, 17.0, 20.0, 1.0, 20.0, 1.0];
+    for name in ["Iw", "Ix", "Iy", "J", "perimeter", "Wx"] {
+        assert!((of("i-section", &i, name) / of("h-beam", &hea, name) - 1.0).abs() < 1e-12, "{name}");
+    }
+    // L 100 × 100 × 10 without its fillets; tables (EN 10056) give i_v = 1.95 cm with them.
+    assert!((of("angle", &[10.0, 10.0, 1.0], "imin") / 1.95 - 1.0).abs() < 0.01);
+    // U 200 with parallel flanges (UPE 200), without its fillets; tables give Iw = 11 900 cm⁶.
+    assert!((of("channel", &[0.6, 17.8, 8.0, 1.1], "Iw") / 11_900.0 - 1.0).abs() < 0.05);
+}
+
 #[test]
 fn every_listed_name_is_offered_and_no_other() {
     for case in CASES {
@@ -143,7 +215,12 @@ fn parts_make_up_the_area() {
         for ([first, second], part) in factors.iter().zip(&parts) {
             assert!((length(first) * length(second) - graph.as_constant(*part).unwrap()).abs() < 1e-15, "{}", case.kind);
         }
-        assert_eq!(parts.len(), if ["h-beam", "tee"].contains(&case.kind) { 2 } else { 1 });
+        let count = match case.kind {
+            "h-beam" | "tee" | "angle" => 2,
+            "i-section" | "channel" => 3,
+            _ => 1,
+        };
+        assert_eq!(parts.len(), count, "{}", case.kind);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::build::{monomial, symmetric_modulus};
+use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind, circle};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -22,7 +22,26 @@ impl Kind for Tube {
     }
 
     fn properties(&self) -> &'static [&'static str] {
-        &["d", "t", "di", "A", "Ix", "Iy", "Wx", "Wy", "J", "Asx", "Asy", "width", "height"]
+        &[
+            "d",
+            "t",
+            "di",
+            "A",
+            "Ix",
+            "Iy",
+            "Wx",
+            "Wy",
+            "Wplx",
+            "Wply",
+            "ix",
+            "iy",
+            "J",
+            "Asx",
+            "Asy",
+            "perimeter",
+            "width",
+            "height",
+        ]
     }
 
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
@@ -43,7 +62,10 @@ impl Kind for Tube {
                 symmetric_modulus(graph, moment, d)
             }
             "Asx" | "Asy" => shear_area(graph, d, t),
-            _ => return None,
+            "Wplx" | "Wply" => plastic(graph, d, t),
+            // The outer one, which is painted.
+            "perimeter" => graph.scale(PI, d),
+            _ => return radius(self, graph, given, name),
         })
     }
 
@@ -101,6 +123,14 @@ fn shear_area(graph: &mut Graph, d: NodeId, t: NodeId) -> NodeId {
     let mixed = monomial(graph, 20.0, &[(d, 2.0), (inner, 2.0)]);
     let divisor = graph.add(square, mixed);
     monomial(graph, 6.0, &[(area, 1.0), (squares, 2.0), (divisor, -1.0)])
+}
+
+/// t·(d² + d·di + di²)/3, (d³ − di³)/6 without its cancellation.
+fn plastic(graph: &mut Graph, d: NodeId, t: NodeId) -> NodeId {
+    let inner = inner(graph, d, t);
+    let (squares, mixed) = (sum_of_squares(graph, d, inner), graph.multiply(d, inner));
+    let sum = graph.add(squares, mixed);
+    monomial(graph, 1.0 / 3.0, &[(t, 1.0), (sum, 1.0)])
 }
 
 fn sum_of_squares(graph: &mut Graph, a: NodeId, b: NodeId) -> NodeId {

@@ -122,7 +122,7 @@ impl<'a> NlpState<'a> {
     pub fn finish(self) -> Finished {
         let conclusion = self.conclusion.unwrap_or(Conclusion {
             termination: Termination::LimitReached,
-            message: format!("the limit of {} iterations is reached", self.max_iterations),
+            message: format!("the limit on iterations, {}, is reached", self.max_iterations),
             invalid: None,
         });
         let point = self.answer.or(self.best);

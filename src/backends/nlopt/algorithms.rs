@@ -30,10 +30,18 @@ pub(super) struct Algorithm {
     pub gradients: bool,
     /// Fewest variables.
     pub least_variables: usize,
-    /// The numbers it stores for n variables and m rows, where that grows faster than n + m.
-    pub storage: Option<fn(f64, f64) -> f64>,
-    /// Operations of one iteration for n variables and m rows, where they are more than the numbers stored.
-    pub work: Option<fn(f64, f64) -> f64>,
+    /// Most equalities for n variables at which it stays inside its memory; those beyond are left out, see `independent`.
+    pub most_equalities: Option<fn(usize) -> usize>,
+    /// Between two calls of the model it does a bounded amount of work, whatever the numbers; see `worker`.
+    pub is_bounded: bool,
+    /// It steps back from a point whose objective is +∞.
+    pub steps_back: bool,
+    /// The numbers it stores for n variables and m rows, beside some for each variable and row.
+    pub storage: fn(f64, f64) -> f64,
+    /// Operations of one evaluation for n variables and m rows, those of the step that leads to it included.
+    pub work: fn(f64, f64) -> f64,
+    /// Evaluations of one iteration.
+    pub evaluations_per_iteration: f64,
     /// Evaluations per variable after which it is stopped, where it would not stop by itself.
     pub evaluations_per_variable: Option<u64>,
 }
@@ -46,28 +54,54 @@ const LOCAL: Algorithm = Algorithm {
     finite_bounds: false,
     gradients: true,
     least_variables: 1,
-    storage: None,
-    work: None,
+    most_equalities: None,
+    is_bounded: false,
+    steps_back: false,
+    storage: |n, m| n + m,
+    // luksan: ten pairs of vectors, each used twice.
+    work: |n, _| 40.0 * n,
+    evaluations_per_iteration: 1.0,
     evaluations_per_variable: None,
 };
 
-/// MMA and its sibling: a dual problem in every step.
+/// MMA and its sibling (mma.c, ccsa_quadratic.c): a dual problem in every step.
 const CONSERVATIVE: Algorithm =
-    Algorithm { rows: Rows::Inequalities, storage: Some(|n, m| 2.0 * n * m), work: Some(|n, m| DUAL_STEPS * n * m), ..LOCAL };
+    Algorithm { rows: Rows::Inequalities, storage: |n, m| 2.0 * n * m, work: |n, m| DUAL_STEPS * n * m, ..LOCAL };
 
-/// All of them, in the order users see. Storage is read off NLopt 2.9.1's sources.
+/// All of them, in the order users see. Storage, work and limits are read off NLopt 2.9.1's sources, which the comments name;
+/// `examples/nlopt_battery.rs` runs each of them on each kind of shape, under valgrind (docs/nlopt.md).
 pub(super) const TABLE: [Algorithm; 11] = [
     Algorithm {
         name: "slsqp",
         code: "LD_SLSQP",
         rows: Rows::All,
-        storage: Some(|n, m| n * (6.0 * n + 4.0 * m)),
-        work: Some(|n, m| n * n * (n + m)),
+        // slsqp.c, `length_work`: with d = m_eq − (n + 1) the workspace lacks (5d − 16)(n + 1) − 2 − d numbers (where there are no
+        // inequalities) of what `lsq_` writes before `lsei_` refuses m_eq > n: an overflow from m_eq = n + 5. Below that every call
+        // fails anyhow.
+        most_equalities: Some(|n| n),
+        is_bounded: true,
+        // slsqp.c, line search (label L200).
+        steps_back: true,
+        // slsqp.c, `length_work`, with a finite bound on each side of every variable.
+        storage: |n, m| n * (12.0 * n + 5.0 * m),
+        // `lsei_` and `nnls_`: a QR factorisation, and a column in or out for about each variable.
+        work: |n, m| n * n * (n + m),
         ..LOCAL
     },
     Algorithm { name: "mma", code: "LD_MMA", ..CONSERVATIVE },
     Algorithm { name: "ccsaq", code: "LD_CCSAQ", ..CONSERVATIVE },
-    Algorithm { name: "auglag", code: "AUGLAG", inner: Some("LD_LBFGS"), rows: Rows::All, storage: Some(|n, m| n * m), ..LOCAL },
+    Algorithm {
+        name: "auglag",
+        code: "AUGLAG",
+        inner: Some("LD_LBFGS"),
+        rows: Rows::All,
+        // auglag.c, `gradtmp`.
+        storage: |n, m| n * m,
+        // The dense Jacobian is made, copied and used; an iteration is a minimisation of its own.
+        work: |n, m| n * (40.0 + 4.0 * m),
+        evaluations_per_iteration: 200.0,
+        ..LOCAL
+    },
     Algorithm { name: "lbfgs", code: "LD_LBFGS", ..LOCAL },
     Algorithm { name: "tnewton", code: "LD_TNEWTON_PRECOND_RESTART", ..LOCAL },
     Algorithm { name: "var2", code: "LD_VAR2", ..LOCAL },
@@ -76,7 +110,10 @@ pub(super) const TABLE: [Algorithm; 11] = [
         code: "LN_COBYLA",
         rows: Rows::All,
         gradients: false,
-        storage: Some(|n, m| n * (4.0 * n + 2.0 * m)),
+        // cobyla.c, `w`: n·(3n + 2m + 11), where two bounds count as rows and an equality as two.
+        storage: |n, m| n * (7.0 * n + 4.0 * m),
+        // `trstlp`: about n changes of the active set, each a pass over rows and an n × n basis.
+        work: |n, m| n * n * (3.0 * n + 2.0 * m),
         evaluations_per_variable: Some(5_000),
         ..LOCAL
     },
@@ -85,7 +122,9 @@ pub(super) const TABLE: [Algorithm; 11] = [
         code: "LN_BOBYQA",
         gradients: false,
         least_variables: 2,
-        storage: Some(|n, _| 8.0 * n * n),
+        // bobyqa.c, `w0` with npt = 2n + 1.
+        storage: |n, _| 20.0 * n * n,
+        work: |n, _| 50.0 * n * n,
         evaluations_per_variable: Some(5_000),
         ..LOCAL
     },
@@ -95,7 +134,9 @@ pub(super) const TABLE: [Algorithm; 11] = [
         rows: Rows::All,
         finite_bounds: true,
         gradients: false,
-        storage: Some(|n, _| 40.0 * n * n),
+        // isres.c: a population of 20(n + 1).
+        storage: |n, _| 40.0 * n * n,
+        work: |n, m| 40.0 * n + m,
         evaluations_per_variable: Some(10_000),
         ..LOCAL
     },
@@ -122,8 +163,10 @@ pub(super) const NAMES: [&str; TABLE.len()] = {
 
 /// Numbers a dense algorithm may store: 400 MB.
 const STORAGE: f64 = 5e7;
-/// Operations of one iteration of an algorithm that is still quick.
-const WORK: f64 = 1e8;
+/// Operations one run may take, in and between the evaluations of the model: about ten seconds of one processor.
+const WORK: f64 = 1e10;
+/// Iterations below which a run is not worth beginning: quasi-Newton methods need about as many to learn a curvature.
+const LEAST_ITERATIONS: f64 = 100.0;
 /// Steps in which MMA and CCSAQ solve the dual of one subproblem, in m variables.
 const DUAL_STEPS: f64 = 1e3;
 
@@ -162,24 +205,22 @@ impl Algorithm {
         if self.finite_bounds && size.open > 0 {
             return Some(format!("needs finite bounds, and {} variables are open on one side", size.open));
         }
-        if !self.fits(&size, STORAGE) {
+        if !self.fits(&size) {
             return Some(format!("is dense: {} variables and {} rows are more than it can hold", size.variables, size.rows()));
         }
         None
     }
 
-    fn fits(&self, size: &Size, storage: f64) -> bool {
-        self.storage.is_none_or(|needed| needed(size.variables as f64, size.rows() as f64) <= storage)
+    fn fits(&self, size: &Size) -> bool {
+        (self.storage)(size.variables as f64, size.rows() as f64) <= STORAGE
     }
 
-    /// Whether the problem is so small that this algorithm is quick on it.
-    pub fn is_quick(&self, meta: &Meta) -> bool {
+    /// Evaluations that fit into [`WORK`], at most `wanted`; 0 where the algorithm cannot take the problem or too few fit.
+    pub fn affordable(&self, meta: &Meta, wanted: u64) -> u64 {
         let size = Size::of(meta);
-        let is_quick = match self.work {
-            Some(work) => work(size.variables as f64, size.rows() as f64) <= WORK,
-            None => self.fits(&size, STORAGE / 50.0),
-        };
-        self.obstacle(meta).is_none() && is_quick
+        let fitting = WORK / (self.work)(size.variables as f64, size.rows() as f64).max(1.0);
+        let least = LEAST_ITERATIONS * self.evaluations_per_iteration;
+        if self.obstacle(meta).is_some() || fitting < least { 0 } else { wanted.min(fitting as u64) }
     }
 }
 

@@ -1,15 +1,24 @@
 //! One run of one NLopt algorithm on one translated problem.
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use super::algorithms::Algorithm;
-use super::ffi::{self, Functions, Halt, Setup};
-use super::form::{Form, Kind};
+use super::ffi::{Halt, Setup};
+use super::form::{Form, Kind, LARGEST};
 use super::watch::{Candidate, Watch};
+use super::worker::{self, Exchange};
 use crate::model::{EvaluationError, Evaluator, Stop};
 
 /// Seed of NLopt's random algorithms, so that a run can be repeated.
-pub(super) const SEED: u32 = 20_240_607;
+const SEED: u32 = 20_240_607;
+/// Relative changes at which a run ends by itself: below them rounding decides.
+const TOLERANCE: f64 = 1e-15;
+/// The same without gradients, whose models of the functions are never that exact.
+const TOLERANCE_WITHOUT_GRADIENTS: f64 = 1e-10;
+/// Scaled violation that NLopt may overlook.
+const VIOLATION: f64 = 1e-12;
 
 /// How an attempt ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,86 +36,109 @@ pub(super) enum End {
     Invalid(String),
 }
 
-/// The point of the last call, with what is known of it.
-#[derive(Default)]
-struct Point {
-    w: Vec<f64>,
-    full: Vec<f64>,
-    rows: Vec<f64>,
-    jacobian: Option<Vec<f64>>,
+impl End {
+    /// A failure of our own account, in NLopt's numbers.
+    fn failed(words: impl Into<String>) -> Self {
+        End::Ended { code: -1, words: words.into() }
+    }
 }
 
 struct Session<'s, 'w, 'j> {
     form: &'s Form<'s>,
     evaluator: &'s Evaluator<'s>,
     watch: &'s mut Watch<'w, 'j>,
-    point: Point,
+    /// Whether the algorithm steps back from a point whose objective is +∞; from the first it cannot.
+    steps_back: bool,
+    has_values: bool,
     error: Option<EvaluationError>,
+    panic: Option<String>,
 }
 
 impl Session<'_, '_, '_> {
-    /// Keeps the first error and ends the run.
-    fn halt(&mut self, error: EvaluationError) -> Halt {
-        self.error.get_or_insert(error);
-        Halt
-    }
-
-    /// Evaluates the rows where `w` is new.
-    fn go_to(&mut self, w: &[f64]) -> Result<(), Halt> {
-        if self.point.w == w {
-            return Ok(());
-        }
-        let full = self.form.complete(w);
-        let rows = self.form.rows(&full).map_err(|error| self.halt(error))?;
-        self.point = Point { w: w.to_vec(), full, rows, jacobian: None };
-        Ok(())
-    }
-
-    fn rows(&mut self, kind: Kind, w: &[f64], values: &mut [f64], jacobian: Option<&mut [f64]>) -> Result<(), Halt> {
-        self.go_to(w)?;
-        self.form.spread(kind, &self.point.rows, values);
-        if let Some(dense) = jacobian {
-            if self.point.jacobian.is_none() {
-                self.point.jacobian = Some(self.form.jacobian(&self.point.full).map_err(|error| self.halt(error))?);
+    /// Values and, where asked for, derivatives at the exchange's point. A panic of the model ends the run like an error.
+    fn answer(&mut self, exchange: &mut Exchange) -> Result<(), Halt> {
+        match catch_unwind(AssertUnwindSafe(|| self.evaluate(exchange))) {
+            Ok(Ok(candidate)) => {
+                self.has_values = true;
+                let is_over = self.watch.see(candidate, self.evaluator.evaluations());
+                if is_over { Err(Halt) } else { Ok(()) }
             }
-            self.form.spread_jacobian(kind, self.point.jacobian.as_deref().unwrap_or_default(), dense);
+            Ok(Err(EvaluationError::Invalid { .. })) if self.may_step_back(&exchange.w) => {
+                exchange.objective = f64::INFINITY;
+                Ok(())
+            }
+            Ok(Err(error)) => {
+                self.error = Some(error);
+                Err(Halt)
+            }
+            Err(payload) => {
+                self.panic = Some(panic_text(payload.as_ref()));
+                Err(Halt)
+            }
         }
-        Ok(())
     }
 
-    fn candidate(&self, objective: f64) -> Candidate {
-        let (violation, feasibility) = self.form.violation(&self.point.rows);
+    fn may_step_back(&self, w: &[f64]) -> bool {
+        self.steps_back && self.has_values && w.iter().all(|value| value.is_finite())
+    }
+
+    fn evaluate(&self, exchange: &mut Exchange) -> Result<Candidate, EvaluationError> {
+        let form = self.form;
+        within_range("trial point", &exchange.w)?;
+        let full = form.complete(&exchange.w);
+        let rows = form.rows(&full)?;
+        form.spread(Kind::Inequalities, &rows, &mut exchange.inequalities.values);
+        form.spread(Kind::Equalities, &rows, &mut exchange.equalities.values);
+        exchange.objective = form.objective(&full, exchange.derivatives.then_some(&mut exchange.gradient[..]))?;
+        if exchange.derivatives && !rows.is_empty() {
+            let jacobian = form.jacobian(&full)?;
+            within_range("derivative of a row", &jacobian)?;
+            form.spread_jacobian(Kind::Inequalities, &jacobian, &mut exchange.inequalities.jacobian);
+            form.spread_jacobian(Kind::Equalities, &jacobian, &mut exchange.equalities.jacobian);
+        }
+        within_range("objective", &[exchange.objective])?;
+        within_range("derivative of the objective", &exchange.gradient)?;
+        within_range("row", &exchange.inequalities.values)?;
+        within_range("row", &exchange.equalities.values)?;
+        Ok(self.candidate(&full, &rows, exchange.objective))
+    }
+
+    fn candidate(&self, full: &[f64], rows: &[f64], objective: f64) -> Candidate {
+        let (violation, feasibility) = self.form.violation(rows);
         Candidate {
-            x: self.form.unscaled(&self.point.full),
+            x: self.form.unscaled(full),
             objective: self.form.unscaled_objective(objective),
             scaled_objective: objective,
             violation,
             feasibility,
         }
     }
+
+    /// NLopt's own answer as a candidate: it may be stationary without being the best by merit.
+    fn own_answer(&self, w: &[f64]) -> Option<Candidate> {
+        if self.error.is_some() || self.panic.is_some() || w.iter().any(|value| !value.is_finite()) {
+            return None;
+        }
+        let full = self.form.complete(w);
+        let rows = self.form.rows(&full).ok()?;
+        let objective = self.form.objective(&full, None).ok()?;
+        Some(self.candidate(&full, &rows, objective))
+    }
 }
 
-impl Functions for Session<'_, '_, '_> {
-    fn objective(&mut self, w: &[f64], gradient: Option<&mut [f64]>) -> Result<f64, Halt> {
-        if w.iter().any(|value| !value.is_finite()) {
-            let error = EvaluationError::Invalid {
-                term: "trial point".into(),
-                cause: "NLopt asked for a point that is no number".into(),
-            };
-            return Err(self.halt(error));
-        }
-        self.go_to(w)?;
-        let value = self.form.objective(&self.point.full, gradient).map_err(|error| self.halt(error))?;
-        let candidate = self.candidate(value);
-        if self.watch.see(candidate, self.evaluator.evaluations()) { Err(Halt) } else { Ok(value) }
-    }
+fn panic_text(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
+    text.unwrap_or("no message").to_owned()
+}
 
-    fn inequalities(&mut self, w: &[f64], values: &mut [f64], jacobian: Option<&mut [f64]>) -> Result<(), Halt> {
-        self.rows(Kind::Inequalities, w, values, jacobian)
-    }
-
-    fn equalities(&mut self, w: &[f64], values: &mut [f64], jacobian: Option<&mut [f64]>) -> Result<(), Halt> {
-        self.rows(Kind::Equalities, w, values, jacobian)
+/// What is no number, or so large that NLopt's arithmetic would overflow on it, does not reach NLopt.
+fn within_range(term: &str, values: &[f64]) -> Result<(), EvaluationError> {
+    match values.iter().find(|value| !(value.abs() <= LARGEST)) {
+        None => Ok(()),
+        Some(value) => Err(EvaluationError::Invalid {
+            term: term.into(),
+            cause: format!("{value:.0e} in units of its scale is more than NLopt can calculate with"),
+        }),
     }
 }
 
@@ -118,45 +150,48 @@ pub(super) fn run(
     evaluator: &Evaluator<'_>,
     watch: &mut Watch<'_, '_>,
 ) -> End {
-    let deadline = evaluator.budget().deadline;
-    let tolerance = if algorithm.gradients { 1e-15 } else { 1e-10 };
-    let setup = Setup {
-        algorithm: algorithm.code,
-        inner: algorithm.inner,
-        lower: form.lower(),
-        upper: form.upper(),
-        inequalities: form.count(Kind::Inequalities),
-        equalities: form.count(Kind::Equalities),
-        violation: 1e-12,
-        tolerance,
-        evaluations,
-        seconds: deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()).as_secs_f64().max(1e-3)),
-        seed: SEED,
+    let steps_back = algorithm.steps_back;
+    let mut session = Session { form, evaluator, watch, steps_back, has_values: false, error: None, panic: None };
+    let budget = evaluator.budget();
+    let is_over = || budget.check(0).is_err();
+    let setup = setup(algorithm, form, evaluations, budget.deadline);
+    let mut answer = |exchange: &mut Exchange| session.answer(exchange);
+    let returned = match algorithm.is_bounded {
+        true => worker::minimise_here(&setup, form.start(), &mut answer),
+        false => worker::minimise(setup, form.start(), &mut answer, &is_over),
     };
-    let mut w = form.start();
-    let mut session = Session { form, evaluator, watch, point: Point::default(), error: None };
-    let outcome = ffi::minimise(&setup, &mut session, &mut w);
-    let panicked = outcome.as_ref().is_none_or(|outcome| outcome.panic.is_some());
-    let own = if panicked { None } else { own_answer(&mut session, &w) };
-    let error = session.error.take();
+    let own = match &returned {
+        worker::End::Returned(_, w) => session.own_answer(w),
+        _ => None,
+    };
+    let Session { error, panic, watch, .. } = session;
     watch.test_at_end(own, evaluator.evaluations());
-    match (error, outcome) {
-        (Some(EvaluationError::Stopped(stop)), _) => End::Stopped(stop),
-        (Some(error), _) => End::Invalid(error.to_string()),
-        (None, None) => End::Ended { code: -3, words: "NLopt could not be set up for this size".into() },
-        (None, Some(outcome)) => match outcome.panic {
-            Some(words) => End::Ended { code: -1, words: format!("a model function panicked: {words}") },
-            None => End::Ended { code: outcome.code, words: outcome.message },
+    match (error, panic, returned) {
+        (Some(EvaluationError::Stopped(stop)), ..) => End::Stopped(stop),
+        (Some(error), ..) => End::Invalid(error.to_string()),
+        (None, Some(words), _) => End::failed(format!("a model function panicked: {words}")),
+        (None, None, worker::End::Returned(outcome, _)) => End::Ended { code: outcome.code, words: outcome.message },
+        (None, None, worker::End::Unable) => End::failed("NLopt could not be set up for this size"),
+        (None, None, worker::End::Left) => match budget.check(0) {
+            Err(stop) => End::Stopped(stop),
+            Ok(()) => End::failed("NLopt did not come back from one of its own loops, and was left"),
         },
     }
 }
 
-/// NLopt's own answer as a candidate: it may be stationary without being the best by merit.
-fn own_answer(session: &mut Session<'_, '_, '_>, w: &[f64]) -> Option<Candidate> {
-    if session.error.is_some() || w.iter().any(|value| !value.is_finite()) {
-        return None;
+fn setup(algorithm: &Algorithm, form: &Form<'_>, evaluations: u64, deadline: Option<Instant>) -> Setup {
+    Setup {
+        algorithm: algorithm.code,
+        inner: algorithm.inner,
+        lower: form.lower().to_vec(),
+        upper: form.upper().to_vec(),
+        inequalities: form.count(Kind::Inequalities),
+        equalities: form.count(Kind::Equalities),
+        most_equalities: algorithm.most_equalities.map(|most| most(form.lower().len())),
+        violation: VIOLATION,
+        tolerance: if algorithm.gradients { TOLERANCE } else { TOLERANCE_WITHOUT_GRADIENTS },
+        evaluations,
+        seconds: deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()).as_secs_f64().max(1e-3)),
+        seed: SEED,
     }
-    session.go_to(w).ok()?;
-    let value = session.form.objective(&session.point.full, None).ok()?;
-    Some(session.candidate(value))
 }

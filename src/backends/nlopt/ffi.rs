@@ -3,7 +3,6 @@
 //! The crate `nlopt` is linked for its static library alone: its safe interface lets closures outlive what they borrow,
 //! aborts when one panics, and hides `force_stop` and `errmsg`.
 
-use std::any::Any;
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_ulong, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice;
@@ -55,19 +54,21 @@ pub(super) trait Functions {
 }
 
 /// One run, as NLopt wants it told.
-pub(super) struct Setup<'a> {
+pub(super) struct Setup {
     /// NLopt's name, `LD_SLSQP`.
-    pub algorithm: &'a str,
+    pub algorithm: &'static str,
     /// The inner algorithm of AUGLAG and MLSL.
-    pub inner: Option<&'a str>,
+    pub inner: Option<&'static str>,
     /// Lower bounds, length n.
-    pub lower: &'a [f64],
-    /// Upper bounds, length n.
-    pub upper: &'a [f64],
+    pub lower: Vec<f64>,
+    /// Upper bounds, length n, each above its lower bound by a normal number.
+    pub upper: Vec<f64>,
     /// Number of inequalities.
     pub inequalities: usize,
     /// Number of equalities.
     pub equalities: usize,
+    /// Equalities beyond which the algorithm is not memory-safe.
+    pub most_equalities: Option<usize>,
     /// Violation NLopt may overlook.
     pub violation: f64,
     /// Relative change below which NLopt stops.
@@ -86,8 +87,6 @@ pub(super) struct Outcome {
     pub code: i32,
     /// NLopt's words.
     pub message: String,
-    /// A callback panicked with these words.
-    pub panic: Option<String>,
 }
 
 /// Steps of the dual problem, in one variable per row, inside one iteration of MMA and CCSAQ: NLopt's own limit of 100 000 can
@@ -145,31 +144,23 @@ unsafe fn copied(text: *const c_char) -> Option<String> {
 struct Bridge<'a> {
     functions: &'a mut dyn Functions,
     handle: Handle,
-    panic: Option<String>,
     halted: bool,
 }
 
 impl Bridge<'_> {
-    /// Calls back unless the run is to end; a halt or a panic ends it, neither crosses the C frames.
+    /// Calls back unless the run is to end; a halt ends it, and so would a panic: neither crosses the C frames.
     fn call<T>(&mut self, body: impl FnOnce(&mut dyn Functions) -> Result<T, Halt>) -> Option<T> {
         if self.halted {
             return None;
         }
-        match catch_unwind(AssertUnwindSafe(|| body(self.functions))) {
-            Ok(Ok(value)) => return Some(value),
-            Ok(Err(Halt)) => {}
-            Err(payload) => self.panic = Some(panic_text(payload.as_ref())),
+        if let Ok(Ok(value)) = catch_unwind(AssertUnwindSafe(|| body(self.functions))) {
+            return Some(value);
         }
         self.halted = true;
         // SAFETY: the handle lives during the run this is called from.
         unsafe { nlopt_force_stop(self.handle) };
         None
     }
-}
-
-fn panic_text(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
-    text.unwrap_or("no message").to_owned()
 }
 
 /// # Safety
@@ -217,14 +208,22 @@ unsafe fn rows(m: c_uint, values: *mut f64, n: c_uint, x: *const f64, jacobian: 
     }
 }
 
+/// Whether the setup has the shape for which NLopt's C code is memory-safe: the last look, whatever was promised before.
+fn is_sound(setup: &Setup, n: usize) -> bool {
+    // A variable without room is taken out by NLopt, and its inner optimisers keep the old dimension.
+    let has_room = setup.lower.iter().zip(&setup.upper).all(|(lower, upper)| upper - lower >= f64::MIN_POSITIVE);
+    let fits = setup.most_equalities.is_none_or(|most| setup.equalities <= most);
+    n > 0 && setup.lower.len() == n && setup.upper.len() == n && has_room && fits
+}
+
 /// Runs NLopt from `x`, which ends at NLopt's best point. `None` where NLopt cannot even be set up.
-pub(super) fn minimise(setup: &Setup<'_>, functions: &mut dyn Functions, x: &mut [f64]) -> Option<Outcome> {
+pub(super) fn minimise(setup: &Setup, functions: &mut dyn Functions, x: &mut [f64]) -> Option<Outcome> {
     let n = x.len();
-    if setup.lower.len() != n || setup.upper.len() != n {
+    if !is_sound(setup, n) {
         return None;
     }
     let optimizer = Optimizer::new(setup.algorithm, n)?;
-    let mut bridge = Bridge { functions, handle: optimizer.0, panic: None, halted: false };
+    let mut bridge = Bridge { functions, handle: optimizer.0, halted: false };
     let data = (&raw mut bridge).cast::<c_void>();
     let tolerances = vec![setup.violation; setup.inequalities.max(setup.equalities)];
     optimizer.set_tolerance(setup.tolerance);
@@ -255,7 +254,7 @@ pub(super) fn minimise(setup: &Setup<'_>, functions: &mut dyn Functions, x: &mut
             None => nlopt_optimize(optimizer.0, x.as_mut_ptr(), &raw mut value),
         }
     };
-    Some(Outcome { code, message: optimizer.words(code), panic: bridge.panic })
+    Some(Outcome { code, message: optimizer.words(code) })
 }
 
 fn add(rows: usize, register: impl FnOnce(c_uint) -> c_int) -> c_int {

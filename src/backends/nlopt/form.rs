@@ -1,5 +1,6 @@
 //! From the one form to NLopt's: minimise f(w) subject to g(w) ≤ 0, h(w) = 0 and bounds with room between them.
 
+use super::independent;
 use crate::model::scaled::{Scaled, Scales};
 use crate::model::{EvaluationError, Meta, Model};
 
@@ -17,6 +18,10 @@ pub(super) enum Kind {
     Equalities,
 }
 
+/// The largest magnitude NLopt is given: sums of squares of such numbers, and products of three, are finite. Bounds beyond it
+/// count as open, values beyond it as none.
+pub(super) const LARGEST: f64 = 1e100;
+
 /// A scaled model without its fixed variables, rows split into sides.
 pub(super) struct Form<'a> {
     scaled: Scaled<'a>,
@@ -31,21 +36,41 @@ pub(super) struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// The model in units of `scales`; `trust` keeps every variable within that share of max(|x_j|, d_j) about `x`.
-    pub fn new(model: &'a dyn Model, scales: Scales, x: &[f64], trust: Option<f64>) -> Self {
+    /// The model in units of `scales`, to be started at `x`.
+    pub fn new(model: &'a dyn Model, scales: Scales, x: &[f64]) -> Self {
         let scaled = Scaled::new(model, scales);
         let meta = scaled.meta();
-        let free: Vec<usize> = (0..meta.variables()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
+        // NLopt fixes a variable whose room is below the smallest normal number by itself, and hands its dimensions on wrongly.
+        let has_room = |&j: &usize| meta.upper[j] - meta.lower[j] >= f64::MIN_POSITIVE;
+        let free: Vec<usize> = (0..meta.variables()).filter(has_room).collect();
         let mut position = vec![usize::MAX; meta.variables()];
         for (at, &j) in free.iter().enumerate() {
             position[j] = at;
         }
         let template = clamped(scaled.scaled_point(x), meta);
-        let radius = |j: usize| trust.map_or(f64::INFINITY, |share| share * template[j].abs().max(1.0));
-        let lower = free.iter().map(|&j| meta.lower[j].max(template[j] - radius(j))).collect();
-        let upper = free.iter().map(|&j| meta.upper[j].min(template[j] + radius(j))).collect();
-        let (inequalities, equalities) = sides(meta);
+        let open = |bound: f64| if bound.abs() > LARGEST { bound * f64::INFINITY } else { bound };
+        let lower = free.iter().map(|&j| open(meta.lower[j])).collect();
+        let upper = free.iter().map(|&j| open(meta.upper[j])).collect();
+        let (inequalities, equalities) = sides(meta, &position);
         Form { free, position, template, lower, upper, inequalities, equalities, scaled }
+    }
+
+    /// Leaves out equalities whose gradients at the start depend on others'.
+    ///
+    /// # Errors
+    /// Those of the model at the start.
+    pub fn keep_independent(&mut self) -> Result<(), EvaluationError> {
+        let count = self.equalities.len();
+        let mut dense = vec![0.0; count * self.free.len()];
+        if !dense.is_empty() {
+            self.spread_jacobian(Kind::Equalities, &self.jacobian(&self.template)?, &mut dense);
+        }
+        let lines: Vec<&[f64]> = dense.chunks_exact(self.free.len().max(1)).collect();
+        let is_linear: Vec<bool> = self.equalities.iter().map(|side| self.scaled.meta().row_is_linear[side.row]).collect();
+        let kept = independent::choice(&lines, &is_linear);
+        let mut at = 0..;
+        self.equalities.retain(|_| at.next().is_some_and(|at| kept.binary_search(&at).is_ok()));
+        Ok(())
     }
 
     /// Lower bounds of the free variables.
@@ -165,9 +190,11 @@ fn clamped(mut point: Vec<f64>, meta: &Meta) -> Vec<f64> {
     point
 }
 
-fn sides(meta: &Meta) -> (Vec<Side>, Vec<Side>) {
+/// A row without a free variable is a constant, and nothing NLopt could change.
+fn sides(meta: &Meta, position: &[usize]) -> (Vec<Side>, Vec<Side>) {
     let (mut inequalities, mut equalities) = (Vec::new(), Vec::new());
-    for row in 0..meta.rows() {
+    let varies = |&row: &usize| meta.jacobian.range(row).any(|at| position[meta.jacobian.columns[at] as usize] != usize::MAX);
+    for row in (0..meta.rows()).filter(varies) {
         let (lower, upper) = (meta.row_lower[row], meta.row_upper[row]);
         if lower == upper {
             equalities.push(Side { row, sign: 1.0, limit: lower });

@@ -1,7 +1,8 @@
 //! NLopt's algorithms behind [`Backend`]. The only room that names NLopt.
 //!
-//! NLopt's status is text to show. `auto` goes on, with restarts from the best point and with other algorithms, until
-//! the stop test handed in (the certificate) passes; see `plan`. Models that fall apart are solved part by part; see `components`.
+//! NLopt's status is text to show. A solve is one short sequence of attempts (`plan`), each on a thread that can be left
+//! (`worker`), on a problem of a shape and of numbers that NLopt can take (`algorithms`, `form`, `independent`; docs/nlopt.md).
+//! It ends when the stop test handed in (the certificate) passes. Models that fall apart are solved part by part (`components`).
 
 mod algorithms;
 mod attempt;
@@ -9,10 +10,12 @@ mod components;
 mod driver;
 mod ffi;
 mod form;
+mod independent;
 mod plan;
 #[cfg(test)]
 mod tests;
 mod watch;
+mod worker;
 
 use std::time::Instant;
 
@@ -43,7 +46,7 @@ impl Backend for Nlopt {
         let able = algorithms::able(meta);
         let obstacle = match (algorithm, algorithms::find(algorithm)) {
             ("auto", _) if able.is_empty() => "auto finds no algorithm for this problem".to_owned(),
-            ("auto", _) => plan::too_many(meta)?,
+            ("auto", _) => plan::too_much(meta)?,
             (_, None) => format!("{algorithm} is no algorithm of this backend"),
             (_, Some(found)) => format!("{algorithm} {}", found.obstacle(meta)?),
         };
@@ -147,7 +150,7 @@ fn invalid(end: &End, proved: bool) -> Option<String> {
 }
 
 fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
-    let Outcome { algorithm, end, attempts } = outcome;
+    let Outcome { algorithm, end } = outcome;
     let how = match end {
         End::Ended { code: -5, .. } if watch.is_unbounded() => "stopped where the objective falls without end".to_owned(),
         End::Ended { code: -5, .. } if watch.proved().is_some() => "stopped after the stop test passed".to_owned(),
@@ -156,11 +159,10 @@ fn message(outcome: &Outcome, watch: &Watch<'_, '_>) -> String {
         End::Stopped(stop) => format!("stopped: {stop}"),
         End::Invalid(error) => format!("ended where the model has no value ({error})"),
     };
-    let tries = if *attempts == 1 { String::new() } else { format!(", {attempts} attempts in all") };
     let point = match watch.best() {
-        _ if watch.proved().is_some() && !how.ends_with("passed") => "; the stop test passed".to_owned(),
+        _ if watch.proved().is_some() && !how.ends_with("passed") => "; its point passed the test".to_owned(),
         Some(best) if watch.is_infeasible() => format!("; rows are violated by up to {:.3e}", best.feasibility),
         _ => String::new(),
     };
-    format!("NLopt's {algorithm} {how}{tries}{point}")
+    format!("NLopt's {algorithm} {how}{point}")
 }

@@ -73,6 +73,8 @@ impl Assembly<'_> {
     /// The numbers of a constant: one, or an array's.
     pub(super) fn constants(&mut self, numbers: &Numbers) -> Option<Value> {
         match numbers {
+            // Stands for a mistake that was told already.
+            Numbers::One(Scalar::Number(value, _)) if value.is_nan() => None,
             Numbers::One(Scalar::Number(value, _)) => Some(Value::Scalar(Formula::Constant(*value))),
             Numbers::One(Scalar::Expression(written)) => {
                 let ast = self.parsed(written, parse)?;
@@ -103,10 +105,13 @@ impl Assembly<'_> {
                 None => self.constants(numbers),
             };
         }
-        overrides
-            .unknown_parameters(|name| matches!(self.names.find(&self.problem, name), Some(Entity::Parameter(_))))
-            .into_iter()
-            .for_each(|(place, name)| self.unknown_override(place, &name));
+        let density = self.names.find(&self.problem, "density");
+        self.problem.density = match density
+            .and_then(|entity| if let Entity::Parameter(p) = entity { self.parameters[p as usize].as_ref() } else { None })
+        {
+            Some(Value::Scalar(Formula::Constant(value))) => Some(*value),
+            _ => None,
+        };
     }
 
     fn parameters_in(&self, numbers: &Numbers) -> Vec<u32> {

@@ -46,9 +46,11 @@ impl Assembly<'_> {
             None => (None, Scope::Once),
         };
         let Some(require) = &entry.require else { return };
-        let Some((left, right)) = self.requirement(require, item_scope.as_ref(), &scope, &name) else { return };
         let place = self.spoken(entry.place);
-        self.problem.constraints.push(Constraint { name, place, text: require.text.clone(), scope, left, right });
+        for (name, left, right) in self.requirement(require, item_scope.as_ref(), &scope, &name) {
+            let (place, text) = (place.clone(), require.text.clone());
+            self.problem.constraints.push(Constraint { name, place, text, scope: scope.clone(), left, right });
+        }
     }
 
     /// The chosen items; `None` where none are left (a warning) or after a mistake.

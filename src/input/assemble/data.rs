@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::input::declaration::Datum;
 use crate::problem::{Cells, Column};
 
 /// No label in this cell.
@@ -29,6 +30,26 @@ impl DataColumns {
         self.columns.push(Growing { column, known: HashMap::new() });
         self.numbers.insert(name.to_owned(), self.columns.len() - 1);
         self.columns.len() - 1
+    }
+
+    /// A datum of `row`; an array takes as many columns, `M[1]`, `M[2]`, ….
+    pub fn put(&mut self, name: &str, row: usize, datum: &Datum) {
+        match datum {
+            Datum::Number(value) => {
+                let column = self.column(name);
+                self.number(column, row, *value);
+            }
+            Datum::Text(text) => {
+                let column = self.column(name);
+                self.text(column, row, text);
+            }
+            Datum::Numbers(list) => {
+                for (at, value) in list.iter().enumerate() {
+                    let column = self.column(&format!("{name}[{}]", at + 1));
+                    self.number(column, row, *value);
+                }
+            }
+        }
     }
 
     /// A number in the cell of `row`. Rows come in order.

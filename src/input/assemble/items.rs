@@ -3,7 +3,7 @@
 use super::Assembly;
 use super::links::Link;
 use super::outlines::Points;
-use crate::input::declaration::{Datum, Declaration, DimensionEntry, Name, Range, RibEntry, SectionEntry};
+use crate::input::declaration::{Declaration, DimensionEntry, Name, Range, RibEntry, SectionEntry};
 use crate::input::source::{Place, Written};
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
@@ -47,11 +47,7 @@ impl Assembly<'_> {
                 self.findings.mistake(name.place, message, "choose another name for the datum");
                 continue;
             }
-            let column = self.section_data.column(&name.text);
-            match datum {
-                Datum::Number(value) => self.section_data.number(column, s as usize, *value),
-                Datum::Text(text) => self.section_data.text(column, s as usize, text),
-            }
+            self.section_data.put(&name.text, s as usize, datum);
         }
     }
 
@@ -220,11 +216,7 @@ impl Assembly<'_> {
             if self.rib_word(&name.text, name.place) {
                 continue;
             }
-            let column = self.rib_data.column(&name.text);
-            match datum {
-                Datum::Number(value) => self.rib_data.number(column, r as usize, *value),
-                Datum::Text(text) => self.rib_data.text(column, r as usize, text),
-            }
+            self.rib_data.put(&name.text, r as usize, datum);
         }
     }
 
@@ -282,6 +274,10 @@ impl Assembly<'_> {
     /// The section of this name.
     pub(super) fn end(&mut self, name: &str, place: Place) -> Option<u32> {
         let found = self.names.sections.find(&self.problem.sections.names, name);
+        if found.is_none() && self.without.sections {
+            // Perhaps it stands in what could not be read.
+            return None;
+        }
         if found.is_none() {
             let near = self.problem.sections.names.iter().take(10_000);
             let help = did_you_mean(name, near).unwrap_or_else(|| "declare it under [sections] or in the table".into());

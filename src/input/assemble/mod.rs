@@ -19,10 +19,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::declaration::{Declaration, Name};
+use super::fields::Scalar;
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use super::table::Tables;
 use crate::expression::ast::Collection;
+use crate::expression::parse::{parse, parse_requirement};
 use crate::geometry::polygon::Ring;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
@@ -55,6 +57,17 @@ pub(super) struct Assembly<'a> {
     /// Points of tables' cells by their text, each kept once.
     points: HashMap<String, Option<Arc<Vec<Ring>>>>,
     used: Vec<(Collection, u32)>,
+    /// What a table could not give.
+    without: Without,
+}
+
+/// What tables could not give: what is missing for that reason is no further mistake.
+#[derive(Default)]
+struct Without {
+    /// Some of the sections, as rows were passed over.
+    sections: bool,
+    /// A whole table.
+    table: bool,
 }
 
 /// Puts the problem together, reading the tables on the way.
@@ -74,6 +87,11 @@ pub(super) fn assemble(
     assembly.items(&declared);
     assembly.tables(&declared, tables);
     assembly.finish_items();
+    if assembly.without.table {
+        // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
+        assembly.grammar(&declared);
+        return (assembly.problem, assembly.findings);
+    }
     assembly.apply(&overrides);
     assembly.check_variables();
     assembly.links(&declared.definitions);
@@ -116,6 +134,22 @@ impl<'a> Assembly<'a> {
             text_numbers: HashMap::new(),
             points: HashMap::new(),
             used: Vec::new(),
+            without: Without::default(),
+        }
+    }
+
+    /// Mistakes of grammar, without looking up any name.
+    fn grammar(&mut self, declared: &Declaration) {
+        for (_, scalar) in &declared.definitions {
+            if let Scalar::Expression(written) = scalar {
+                self.parsed(written, parse);
+            }
+        }
+        if let Some((_, Some(written))) = &declared.objective {
+            self.parsed(written, parse);
+        }
+        for written in declared.constraints.iter().filter_map(|entry| entry.require.as_ref()) {
+            self.parsed(written, parse_requirement);
         }
     }
 

@@ -32,12 +32,6 @@ impl Overrides {
         let set = self.list.iter().rev().find(|set| set.part.is_none() && set.name == name);
         set.map(|set| set.value)
     }
-
-    /// Overrides of parameters there are none of.
-    pub fn unknown_parameters(&self, known: impl Fn(&str) -> bool) -> Vec<(Place, String)> {
-        let unknown = self.list.iter().filter(|set| set.part.is_none() && !known(&set.name));
-        unknown.map(|set| (set.place, set.name.clone())).collect()
-    }
 }
 
 impl Assembly<'_> {
@@ -53,31 +47,74 @@ impl Assembly<'_> {
                 continue;
             };
             match right.trim().parse::<f64>() {
-                Ok(value) if !value.is_nan() => overrides.list.push(set(left.trim(), value, place(0, left.len()))),
+                Ok(value) if value.is_finite() || (value.is_infinite() && is_open_bound(left, right)) => {
+                    overrides.list.push(set(left.trim(), value, place(0, left.len())))
+                }
                 _ => {
                     let place = place(left.len() + 1, argument.len());
-                    self.findings.mistake(place, format!("`{right}` is no number"), "expected a number, as in 0.8");
+                    let message = match right.trim().parse::<f64>() {
+                        Ok(value) if value.is_infinite() => {
+                            format!("`{right}` is too large, or infinite where only bounds may be")
+                        }
+                        _ => format!("`{right}` is no number"),
+                    };
+                    self.findings.mistake(place, message, "expected a number, as in 0.8");
                 }
             }
         }
         overrides
     }
 
-    /// The mistake of a parameter that does not exist.
-    pub(super) fn unknown_override(&mut self, place: Place, name: &str) {
-        let suggestion = did_you_mean(name, self.names.suggestions(&self.problem).into_iter());
+    /// The mistake of a name that is neither parameter nor variable.
+    fn unknown_override(&mut self, place: Place, name: &str) {
+        let suggestion = did_you_mean(name, self.names.suggestions(&self.problem).into_iter().filter(|known| *known != name));
         let message = match self.names.find(&self.problem, name) {
-            Some(entity) => format!("`{name}` is a {}, not a parameter", entity.word()),
-            None => format!("there is no parameter `{name}`"),
+            Some(entity) => format!("`{name}` is a {}, not a parameter or a variable", entity.word()),
+            None => format!("there is no parameter or variable `{name}`"),
         };
-        let bounds = "bounds and starts of variables are set by depth.lower=…, depth.upper=…, depth.start=…";
-        self.findings.mistake(place, message, suggestion.unwrap_or_else(|| bounds.into()));
+        let help =
+            "NAME=VALUE sets a parameter or fixes a variable such as depth, x[2] or support.b; NAME.lower=, .upper=, .start=";
+        self.findings.mistake(place, message, suggestion.unwrap_or_else(|| help.into()));
+    }
+
+    /// `NAME=VALUE` for what is no parameter: a variable is fixed there, a fixed dimension takes another value.
+    fn fix(&mut self, set: &Override) {
+        if matches!(self.names.find(&self.problem, &set.name), Some(Entity::Parameter(_))) {
+            return;
+        }
+        if let Some(variables) = self.variables_named(&set.name) {
+            let table = &mut self.problem.variables;
+            for column in [&mut table.lower, &mut table.upper, &mut table.start] {
+                column[variables.clone()].fill(set.value);
+            }
+            if let Some((_, dimension)) = set.name.rsplit_once('.') {
+                self.positive(dimension, set.value, set.place);
+            }
+            return;
+        }
+        match self.dimension_named(&set.name) {
+            Some((s, at)) => {
+                let first = self.problem.sections.first_dimension[s] as usize;
+                if let Dimension::Constant(value) = &mut self.problem.sections.dimensions[first + at] {
+                    *value = set.value;
+                    let dimension = set.name.rsplit_once('.').map_or("", |(_, name)| name);
+                    self.positive(dimension, set.value, set.place);
+                } else {
+                    let message = format!("`{}` follows from an expression", set.name);
+                    self.findings.mistake(set.place, message, "set what the expression is made of");
+                }
+            }
+            None => self.unknown_override(set.place, &set.name),
+        }
     }
 
     /// Sets bounds and starts of variables.
     pub(super) fn apply(&mut self, overrides: &Overrides) {
         for set in &overrides.list {
-            let Some(part) = set.part else { continue };
+            let Some(part) = set.part else {
+                self.fix(set);
+                continue;
+            };
             let Some(variables) = self.variables_named(&set.name) else {
                 let known = self.problem.variables.declared.iter().map(|name| &**name);
                 let help =
@@ -111,14 +148,26 @@ impl Assembly<'_> {
                 _ => None,
             };
         }
-        let (section, dimension) = name.rsplit_once('.')?;
-        let s = self.names.sections.find(&self.problem.sections.names, section)? as usize;
-        let at = sections_form(&self.problem, s)?.dimensions.iter().position(|given| *given == dimension)?;
+        let (s, at) = self.dimension_named(name)?;
         match self.problem.dimensions(s).get(at)? {
             Dimension::Variable(j) => Some(*j as usize..*j as usize + 1),
             _ => None,
         }
     }
+
+    /// The section and the position of a dimension: `support.b`.
+    fn dimension_named(&self, name: &str) -> Option<(usize, usize)> {
+        let (section, dimension) = name.rsplit_once('.')?;
+        let s = self.names.sections.find(&self.problem.sections.names, section)? as usize;
+        let at = sections_form(&self.problem, s)?.dimensions.iter().position(|given| *given == dimension)?;
+        Some((s, at))
+    }
+}
+
+/// `depth.upper=inf`, and not `depth.upper=1e400`.
+fn is_open_bound(left: &str, right: &str) -> bool {
+    let says_so = ["inf", "infinity"].contains(&right.trim().trim_start_matches(['+', '-']).to_lowercase().as_str());
+    says_so && [".lower", ".upper"].iter().any(|bound| left.trim().ends_with(bound))
 }
 
 fn set(left: &str, value: f64, place: Place) -> Override {

@@ -8,46 +8,89 @@ use crate::input::source::Written;
 use crate::problem::cells::{Use, uses};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::mentions::mentions;
-use crate::problem::resolve::{ItemScope, Stage};
-use crate::problem::{Cells, Formula, Limit, Problem, Scope};
+use crate::problem::resolve::{ItemScope, Stage, Value};
+use crate::problem::{Cells, Column, Formula, Limit, Problem, Scope};
 
 impl Assembly<'_> {
-    /// The row's formula and limit; `None` after a mistake, or where the row holds always and is left out.
+    /// The row's formula and limit, or one pair per element where a side is an array; none after a mistake, or where the row holds
+    /// always and is left out.
     pub(super) fn requirement(
         &mut self,
         written: &Written,
         items: Option<&ItemScope>,
         scope: &Scope,
         name: &str,
-    ) -> Option<(Formula, Limit)> {
+    ) -> Vec<(String, Formula, Limit)> {
+        self.sides(written, items, scope, name).map_or_else(Vec::new, |(requirement, sides)| {
+            let single = sides.len() == 1;
+            let rows = sides.into_iter().enumerate().map(|(at, formulas)| {
+                let name = if single { name.to_owned() } else { format!("{name}[{}]", at + 1) };
+                self.row(written, &requirement, formulas, scope, &name).map(|(left, limit)| (name, left, limit))
+            });
+            rows.collect::<Vec<_>>().into_iter().flatten().collect()
+        })
+    }
+
+    /// The formulas on the sides of each row.
+    fn sides(
+        &mut self,
+        written: &Written,
+        items: Option<&ItemScope>,
+        scope: &Scope,
+        name: &str,
+    ) -> Option<(Requirement, Vec<Vec<Formula>>)> {
         let requirement = self.parsed(written, parse_requirement)?;
         let trees = match &requirement {
             Requirement::Two { left, right, .. } => vec![left, right],
             Requirement::Range { lower, middle, upper } => vec![lower, middle, upper],
         };
-        let mut formulas = Vec::with_capacity(trees.len());
+        let mut values = Vec::with_capacity(trees.len());
         for tree in &trees {
             let grouped = self.same_in_groups(written, tree, items, scope);
-            let formula = self.resolved(written, items, Stage::All, |resolver| resolver.scalar(tree));
-            formulas.push(formula.filter(|_| grouped));
+            let value = self.resolved(written, items, Stage::All, |resolver| resolver.value(tree));
+            values.push(value.filter(|_| grouped));
         }
-        let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
+        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
         let user = format!("constraint `{name}`");
-        if !formulas.iter().all(|formula| self.cells_filled(formula, items, &user)) {
+        if !values.iter().flat_map(Value::formulas).all(|formula| self.cells_filled(formula, items, &user)) {
             return None;
         }
+        let lengths: Vec<usize> =
+            values.iter().filter_map(|value| if let Value::Array(list) = value { Some(list.len()) } else { None }).collect();
+        let count = lengths.first().copied().unwrap_or(1);
+        if let Some(other) = lengths.iter().find(|length| **length != count) {
+            let message = format!("the sides are arrays of {count} and {other} elements");
+            self.findings.mistake(written.place, message, "both need the same size; single numbers are repeated");
+            return None;
+        }
+        let element = |value: &Value, at: usize| match value {
+            Value::Scalar(formula) => formula.clone(),
+            Value::Array(list) => list[at].clone(),
+        };
+        let rows = (0..count).map(|at| values.iter().map(|value| element(value, at)).collect()).collect();
+        Some((requirement, rows))
+    }
+
+    fn row(
+        &mut self,
+        written: &Written,
+        requirement: &Requirement,
+        formulas: Vec<Formula>,
+        scope: &Scope,
+        name: &str,
+    ) -> Option<(Formula, Limit)> {
         let constant: Vec<bool> = formulas.iter().map(|formula| constant(&self.problem, formula, scope)).collect();
         if constant.iter().all(|&constant| constant) {
-            self.decided(written, &requirement, &formulas, scope, name);
+            self.decided(written, requirement, &formulas, scope, name);
             return None;
         }
         match requirement {
             Requirement::Two { comparison, .. } => {
                 let [left, right]: [Formula; 2] = formulas.try_into().ok()?;
-                Some(two(comparison, left, right, constant[0], constant[1]))
+                Some(two(*comparison, left, right, constant[0], constant[1]))
             }
             Requirement::Range { lower, upper, .. } => {
-                for (tree, constant) in [(&lower, constant[0]), (&upper, constant[2])] {
+                for (tree, constant) in [(lower, constant[0]), (upper, constant[2])] {
                     if !constant {
                         let place = written.part(tree.span.start, tree.span.end);
                         let help = "the ends of a range are constant; write two constraints";
@@ -105,7 +148,10 @@ impl Assembly<'_> {
         let mut same = true;
         for mention in mentions(tree).0.iter().filter(|mention| !mention.in_fold) {
             let name = mention.parts.join(".");
-            let column = self.problem.columns(items.collection).iter().position(|column| column.name == name);
+            let is_own = |column: &Column| {
+                column.name == name || column.name.strip_prefix(&name).is_some_and(|rest| rest.starts_with('['))
+            };
+            let column = self.problem.columns(items.collection).iter().position(is_own);
             let offending = match column {
                 Some(at) => groups.iter().find(|(_, list)| !equal_cells(&self.problem, items.collection, at, list)),
                 None if own_name(items, mention.parts) => groups.iter().find(|(_, list)| list.len() > 1),

@@ -24,11 +24,16 @@ impl Assembly<'_> {
     }
 
     fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
+        // Until the columns are known.
+        (self.without.sections, self.without.table) = (true, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.section_row(&row, &columns);
         }
+        table.say_how(&mut self.findings);
+        self.without.sections = table.ragged;
+        self.without.table = table.ragged && self.problem.sections.names.is_empty();
     }
 
     fn section_row(&mut self, row: &Row, columns: &SectionColumns) {
@@ -57,12 +62,13 @@ impl Assembly<'_> {
             self.findings.mistake(row.place(at), message, "either the value or its bounds");
         }
         let value = match value {
-            Some(at) => match number(row.field(at)) {
+            Some(at) => match row.number(at) {
                 Some(value) => GivenValue::Fixed(value),
                 None => GivenValue::Expression(row.written(at)),
             },
             None => {
-                let [lower, upper, start] = parts.map(|at| at.and_then(|at| self.cell_constant(row, at)));
+                let [lower, upper] = [parts[0], parts[1]].map(|at| at.and_then(|at| self.bound_cell(row, at)));
+                let start = parts[2].and_then(|at| self.cell_constant(row, at));
                 GivenValue::Own(Range { lower, upper, start })
             }
         };
@@ -71,15 +77,34 @@ impl Assembly<'_> {
 
     /// A number or a constant expression.
     fn cell_constant(&mut self, row: &Row, at: usize) -> Option<f64> {
-        number(row.field(at)).or_else(|| self.constant(&Scalar::Expression(row.written(at))))
+        match row.number(at) {
+            Some(value) if value.is_infinite() => {
+                infinite(row, at, &mut self.findings);
+                None
+            }
+            Some(value) => Some(value),
+            None => self.constant(&Scalar::Expression(row.written(at))),
+        }
+    }
+
+    /// The same, or `inf` for an open bound.
+    fn bound_cell(&mut self, row: &Row, at: usize) -> Option<f64> {
+        match row.field(at).to_lowercase().as_str() {
+            "inf" | "+inf" => Some(f64::INFINITY),
+            "-inf" => Some(f64::NEG_INFINITY),
+            _ => self.cell_constant(row, at),
+        }
     }
 
     fn rib_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
+        let before = std::mem::replace(&mut self.without.table, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         let Some(columns) = RibColumns::of(&table, self) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.rib_row(&row, &columns);
         }
+        table.say_how(&mut self.findings);
+        self.without.table = before || (table.ragged && self.problem.ribs.names.is_empty());
     }
 
     fn rib_row(&mut self, row: &Row, columns: &RibColumns) {
@@ -132,9 +157,10 @@ impl Assembly<'_> {
     }
 }
 
-/// The number a cell holds; `None` for anything else (an expression, perhaps).
-fn number(text: &str) -> Option<f64> {
-    text.parse().ok().filter(|value: &f64| !value.is_nan())
+/// The mistake of a number that is too large for one, or infinite where no bound stands.
+fn infinite(row: &Row, at: usize, findings: &mut crate::input::findings::Findings) {
+    let help = "numbers reach to about 1.8e308; only bounds may be inf, or left empty";
+    findings.mistake(row.place(at), format!("`{}` is not finite", row.field(at)), help);
 }
 
 /// Puts a cell into a data column: a number, a text, or nothing.
@@ -147,10 +173,11 @@ fn put(
     item: usize,
 ) {
     let text = row.field(at);
-    match text.parse::<f64>() {
-        Ok(value) if value.is_nan() => findings.mistake(row.place(at), "this is no number", "leave the cell empty"),
-        Ok(value) => data.number(column, item, value),
-        Err(_) if text.is_empty() => {}
-        Err(_) => data.text(column, item, text),
+    match row.number(at) {
+        Some(value) if value.is_infinite() => infinite(row, at, findings),
+        Some(value) => data.number(column, item, value),
+        None if text.parse::<f64>().is_ok() => findings.mistake(row.place(at), "this is no number", "leave the cell empty"),
+        None if text.is_empty() => {}
+        None => data.text(column, item, text),
     }
 }

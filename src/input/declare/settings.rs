@@ -4,6 +4,7 @@ use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
+use crate::problem::words::brief;
 
 /// The table's values, each checked; what is left out keeps its default.
 pub(super) fn settings(mut fields: Fields, settings: &mut Settings, reader: &mut Reader) {
@@ -38,7 +39,7 @@ fn backends(field: &Field, reader: &mut Reader) -> Vec<String> {
 fn tolerance(fields: &mut Fields, key: &'static str, target: &mut f64, reader: &mut Reader) {
     if let Some(field) = fields.take(key) {
         let inside = |value: f64| value > 0.0 && value < 1.0;
-        *target = checked(&field, inside, "a number between 0 and 1", reader).unwrap_or(*target);
+        *target = checked(&field, inside, "a number between 0 and 1, neither of them, such as 1e-6", reader).unwrap_or(*target);
     }
 }
 
@@ -53,7 +54,7 @@ fn count(fields: &mut Fields, key: &'static str, target: &mut u64, reader: &mut 
 fn checked(field: &Field, allowed: impl Fn(f64) -> bool, what: &str, reader: &mut Reader) -> Option<f64> {
     let value = field.number(reader)?;
     if !allowed(value) {
-        let message = format!("`{}` cannot be {value}", field.key);
+        let message = format!("`{}` cannot be {}", field.key, brief(value));
         reader.findings.mistake(field.place, message, format!("expected {what}"));
         return None;
     }

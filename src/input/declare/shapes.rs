@@ -109,7 +109,15 @@ fn datum(field: &Field, reader: &mut Reader) -> Option<Datum> {
     match field.value {
         DeValue::String(text) => Some(Datum::Text(text.to_string())),
         DeValue::Integer(_) | DeValue::Float(_) => field.number(reader).map(Datum::Number),
-        _ => field.expected("a number or text", reader),
+        DeValue::Array(_) => {
+            let items = field.items().unwrap_or_default();
+            let numbers: Vec<f64> = items.iter().filter_map(|item| item.number(reader)).collect();
+            if items.is_empty() {
+                return field.expected("an array of one number or more", reader);
+            }
+            (numbers.len() == items.len()).then_some(Datum::Numbers(numbers))
+        }
+        _ => field.expected("a number, text, or an array of numbers", reader),
     }
 }
 

@@ -12,7 +12,12 @@ use crate::mesh::{PolygonMesh, Vector, unit};
 /// # Errors
 /// What `stl_io` finds, and points that are no numbers.
 pub fn read_stl<R: Read + Seek>(source: &mut R) -> Result<PolygonMesh, FormatError> {
-    let stl = stl_io::read_stl(source).map_err(|cause| FormatError::Content(cause.to_string()))?;
+    let stl = stl_io::read_stl(source).map_err(|cause| match cause.kind() {
+        io::ErrorKind::UnexpectedEof => {
+            FormatError::Content("the file ends before all the triangles it announces: it was cut short, copy it again".into())
+        }
+        _ => FormatError::Content(cause.to_string()),
+    })?;
     let mut mesh = PolygonMesh::default();
     for vertex in &stl.vertices {
         let [x, y, z] = vertex.0.map(f64::from);

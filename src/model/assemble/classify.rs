@@ -10,6 +10,7 @@ use super::{AssemblyError, context};
 use crate::expression::structure::Wanted;
 use crate::model::logarithmic::Logarithmic;
 use crate::model::{Class, Model, RibModel};
+use crate::problem::ratio::Ratio;
 use crate::problem::{Constraint, Formula, Limit, Problem, Sense};
 
 /// What is proved about a problem.
@@ -145,9 +146,16 @@ impl Judge<'_> {
 
     fn geometric_row(&self, constraint: &Constraint) -> Result<Result<GeometricRow, String>, AssemblyError> {
         let name = format!("constraint {}", constraint.name);
-        let Some((ratio, limit)) = self.problem.ratio(&constraint.left, &constraint.right) else {
-            return Ok(Err(format!("{name}: it holds a sum of positive terms below zero")));
+        let (ratio, limit) = match self.problem.ratio(&constraint.left, &constraint.right) {
+            Ratio::Row(ratio, limit) => (ratio, limit),
+            Ratio::NotNegative(formula) => return self.always_met(constraint, &formula),
+            Ratio::None => return Ok(Err(format!("{name}: it holds a sum of positive terms below zero"))),
         };
+        if let Limit::Between(_, upper) = &limit
+            && !self.rows(constraint, upper)?.is_positive()
+        {
+            return Ok(Err(format!("{name}: its upper limit leaves no room for a positive term")));
+        }
         let survey = self.rows(constraint, &ratio)?;
         let bend = survey.bend();
         let two_sided = matches!(limit, Limit::Equal(_) | Limit::Between(..));
@@ -159,6 +167,16 @@ impl Judge<'_> {
         }
         let monomial = bend.log_curvature == crate::expression::structure::Curvature::Affine;
         Ok(Ok(GeometricRow { ratio, limit, monomial }))
+    }
+
+    /// The row says that `formula` is not negative: it has no place in a geometric program, unless it is proved that it never is
+    /// between the variables' bounds. Then 0 ≤ 1 says the same.
+    fn always_met(&self, constraint: &Constraint, formula: &Formula) -> Result<Result<GeometricRow, String>, AssemblyError> {
+        if self.rows(constraint, formula)?.is_non_negative() {
+            let (ratio, limit) = (Formula::Constant(0.0), Limit::AtMost(Formula::Constant(1.0)));
+            return Ok(Ok(GeometricRow { ratio, limit, monomial: false }));
+        }
+        Ok(Err(format!("constraint {}: the term it holds above a limit is not shown to be positive", constraint.name)))
     }
 }
 

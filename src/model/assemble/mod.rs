@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
 use super::assembled::{Affine, RibModel, RowOrigin};
-use super::{Meta, Pattern};
+use super::{Meta, Model, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 pub use classify::{Classification, classify};
@@ -58,7 +58,11 @@ fn assemble_with<'a>(
     let (facts, mut kernels) = (Facts::of(problem), Kernels::default());
     let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
     let rows = Rows::of(problem, sides, &facts, &mut kernels)?;
-    Ok(connect(problem, objective, objective_groups.into_list(), rows))
+    let mut model = connect(problem, objective, objective_groups.into_list(), rows);
+    let mut start = std::mem::take(&mut model.meta.start);
+    model.complete(&mut start);
+    model.meta.start = start;
+    Ok(model)
 }
 
 fn objective(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
@@ -192,6 +196,11 @@ fn scattered(rows: &[Affine], jacobian: &Pattern) -> Vec<f64> {
 }
 
 /// Fixes the patterns and tells every element where its derivatives go.
+/// Magnitudes given, 0 for what follows them.
+fn padded(typical: &[f64], n: usize) -> Vec<f64> {
+    typical.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect()
+}
+
 fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
     let (n, m) = (problem.variables.lower.len(), rows.affine.len());
     let mut row_groups = rows.groups.into_list();
@@ -211,6 +220,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         lower: problem.variables.lower.clone(),
         upper: problem.variables.upper.clone(),
         start: problem.variables.start.clone(),
+        typical: padded(&problem.variables.typical, n),
         row_lower: rows.lower,
         row_upper: rows.upper,
         row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),

@@ -10,11 +10,10 @@
 mod local;
 mod members;
 mod part;
-mod partition;
 
+pub use crate::linear_algebra::Partition;
 pub(super) use local::Apart;
 pub use members::Members;
-pub use partition::Partition;
 
 use super::Model;
 

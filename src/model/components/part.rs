@@ -39,6 +39,7 @@ impl Part {
                 lower: variable(&meta.lower),
                 upper: variable(&meta.upper),
                 start: variable(&meta.start),
+                typical: variable(&meta.typical),
                 row_lower: row(&meta.row_lower),
                 row_upper: row(&meta.row_upper),
                 row_is_linear: rows.iter().map(|&i| meta.row_is_linear[i as usize]).collect(),

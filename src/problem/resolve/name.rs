@@ -22,11 +22,58 @@ impl<'a> Resolver<'a, '_> {
         {
             return formula.map(Value::Scalar);
         }
+        if let Some(elements) = self.elements(&parts) {
+            let list = elements.iter().map(|(collection, column, item)| self.element(*collection, *column, *item, &parts, span));
+            return list.collect::<Option<Vec<_>>>().map(Value::Array);
+        }
         match parts[..] {
             [name] => self.global(name, span),
             [item, name] => self.member(item, name, span).map(Value::Scalar),
             [rib, end, name] => self.rib_end(rib, end, name, span).map(Value::Scalar),
             _ => self.mistake(span, "too many dots", Some("as in support.Ix, haunch.length, haunch.from.b".into())),
+        }
+    }
+
+    /// The columns `M[1]`, `M[2]`, … of an array among the data, with the item they are asked of where that is not the row's own.
+    fn elements(&self, parts: &[&str]) -> Option<Vec<(Collection, u32, Option<u32>)>> {
+        let (name, items) = parts.split_last()?;
+        let (collection, item) = match (items, self.scope) {
+            ([], Some(scope)) => (scope.collection, None),
+            (["from" | "to"], Some(scope)) if scope.collection == Collection::Ribs => (Collection::Sections, None),
+            ([item], _) if self.world.stage == Stage::All => match self.world.names.find(self.world.problem, item)? {
+                Entity::Section(s) => (Collection::Sections, Some(s)),
+                Entity::Rib(r) => (Collection::Ribs, Some(r)),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let columns = self.columns(collection);
+        let at = |number: usize| columns.iter().position(|column| column.name == format!("{name}[{number}]"));
+        let mut found = Vec::new();
+        while let Some(column) = at(found.len() + 1) {
+            // The item's own array is as long as its cells are filled.
+            if item.is_some_and(|item| number(&columns[column], item).is_none()) {
+                break;
+            }
+            found.push((collection, column as u32, item));
+        }
+        (!found.is_empty()).then_some(found)
+    }
+
+    /// One element of such an array.
+    fn element(&mut self, collection: Collection, column: u32, item: Option<u32>, parts: &[&str], span: Span) -> Option<Formula> {
+        self.report.used.push((collection, column));
+        let column_name = &self.columns(collection)[column as usize].name;
+        match (item, parts) {
+            (Some(item), _) => number(&self.columns(collection)[column as usize], item).map(Formula::Constant),
+            (None, ["from", _]) => Some(Formula::EndData(End::From, column)),
+            (None, ["to", _]) => Some(Formula::EndData(End::To, column)),
+            (None, _) if matches!(self.columns(collection)[column as usize].cells, Cells::Labels { .. }) => self.mistake(
+                span,
+                format!("data `{column_name}` are text"),
+                Some("only data of numbers can be reckoned with".into()),
+            ),
+            (None, _) => Some(Formula::OwnData(column)),
         }
     }
 
@@ -40,6 +87,7 @@ impl<'a> Resolver<'a, '_> {
             return None;
         }
         let found = match (scope.collection, parts) {
+            (Collection::Ribs, ["from" | "to", _]) if self.elements(parts).is_some() => return None,
             (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
             (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),
             (Collection::Ribs, ["volume"]) => Some(Formula::OwnVolume),
@@ -56,11 +104,20 @@ impl<'a> Resolver<'a, '_> {
         };
         if let [name] = parts
             && let Some(entity) = self.world.names.find(self.world.problem, name)
+            && !self.is_the_same(entity, name)
         {
             let message = format!("`{name}` is the item's own here and hides the {} of this name", entity.word());
             self.warning(span, message, "rename one of the two");
         }
         Some(Some(found))
+    }
+
+    /// Whether every section here is linked to the variable by this very name, `tw = "tw"`: then both mean the same.
+    fn is_the_same(&self, entity: Entity, name: &str) -> bool {
+        let (Some(scope), Entity::Variable(entry)) = (self.scope, entity) else { return false };
+        let Some(&(variable, None)) = self.world.variables.get(entry as usize) else { return false };
+        let linked = |&s: &u32| self.world.problem.given_dimension(s, name) == Some(Dimension::Variable(variable));
+        scope.collection == Collection::Sections && scope.members.iter().all(linked)
     }
 
     /// The item's data column of this name.

@@ -1,6 +1,6 @@
 //! A panel with two axes, each linear or logarithmic.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Ink};
 use crate::report::number::significant;
 
 /// Values from one end of an axis to the other.
@@ -9,6 +9,8 @@ pub(super) struct Scale {
     from: f64,
     to: f64,
     logarithmic: bool,
+    /// The ends are given, not chosen for the values.
+    exact: bool,
 }
 
 impl Scale {
@@ -16,19 +18,19 @@ impl Scale {
     pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
         let (low, high) = range(values).unwrap_or((0.0, 1.0));
         let room = if high > low { 0.05 * (high - low) } else { 0.5 * high.abs().max(1e-12) };
-        Scale { from: low - room, to: high + room, logarithmic: false }
+        Scale { from: low - room, to: high + room, logarithmic: false, exact: false }
     }
 
     /// From exactly here to there.
     pub fn between(from: f64, to: f64) -> Scale {
-        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: false }
+        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: false, exact: true }
     }
 
     /// Whole powers of ten around these values.
     pub fn logarithmic(values: impl Iterator<Item = f64>) -> Scale {
         let (low, high) = range(values.filter(|value| *value > 0.0)).unwrap_or((0.1, 1.0));
         let (from, to) = (low.log10().floor(), high.log10().ceil());
-        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: true }
+        Scale { from, to: if to > from { to } else { from + 1.0 }, logarithmic: true, exact: false }
     }
 
     /// Where a value stands, from 0 to 1; what lies beyond the axis stands at its end, NaN nowhere.
@@ -51,7 +53,20 @@ impl Scale {
         let power = 10f64.powf(rough.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| *step >= rough).unwrap_or(power);
         let first = (self.from / step).ceil();
-        (0..20).map(|k| (first + f64::from(k)) * step).take_while(|tick| *tick <= self.to * (1.0 + 1e-12)).collect()
+        let round = (0..20).map(|k| (first + f64::from(k)) * step).take_while(|tick| *tick <= self.to + 1e-9 * step);
+        let mut ticks: Vec<f64> = round.collect();
+        if self.exact {
+            // The ends are what the axis is about; a round number too near to one gives way.
+            ticks.retain(|tick| *tick - self.from > 0.4 * step && self.to - *tick > 0.4 * step);
+            ticks.insert(0, self.from);
+            ticks.push(self.to);
+        }
+        ticks
+    }
+
+    /// Units of the axis.
+    fn span(&self) -> f64 {
+        self.to - self.from
     }
 }
 
@@ -78,23 +93,37 @@ impl Panel {
         [self.left + self.width * self.x.share(x), self.top + self.height * (1.0 - self.y.share(y))]
     }
 
+    /// How many times as large as along the panel things are drawn across it.
+    pub fn exaggeration(&self) -> f64 {
+        (self.height / self.y.span()) / (self.width / self.x.span())
+    }
+
+    /// As [`Panel::draw`], with the whole extent on the vertical axis, half of which lies on either side of 0.
+    pub fn draw_extent(&self, canvas: &mut Canvas, x_name: &str, y_name: &str) {
+        self.drawn(canvas, x_name, y_name, |value| significant(2.0 * value.abs(), 3));
+    }
+
     /// Grid, ticks and names of the axes.
     pub fn draw(&self, canvas: &mut Canvas, x_name: &str, y_name: &str) {
+        self.drawn(canvas, x_name, y_name, |value| significant(value, 3));
+    }
+
+    fn drawn(&self, canvas: &mut Canvas, x_name: &str, y_name: &str, label: impl Fn(f64) -> String) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for tick in self.y.ticks() {
             let y = self.top + self.height * (1.0 - self.y.share(tick));
-            canvas.line([self.left, y, right, y], "#e4e4e4");
-            canvas.text(self.left - 6.0, y + 4.0, "end", &significant(tick, 3));
+            canvas.line([self.left, y, right, y], Ink::Faint);
+            canvas.note(self.left - 6.0, y + 4.0, "end", &label(tick));
         }
         for tick in self.x.ticks() {
             let x = self.left + self.width * self.x.share(tick);
-            canvas.line([x, self.top, x, bottom], "#e4e4e4");
-            canvas.text(x, bottom + 15.0, "middle", &significant(tick, 3));
+            canvas.line([x, self.top, x, bottom], Ink::Faint);
+            canvas.note(x, bottom + 15.0, "middle", &significant(tick, 3));
         }
-        canvas.line([self.left, bottom, right, bottom], "black");
-        canvas.line([self.left, self.top, self.left, bottom], "black");
+        canvas.line([self.left, bottom, right, bottom], Ink::Middle);
+        canvas.line([self.left, self.top, self.left, bottom], Ink::Middle);
         canvas.text((self.left + right) / 2.0, bottom + 31.0, "middle", x_name);
-        canvas.upright(self.left - 58.0, (self.top + bottom) / 2.0, y_name);
+        canvas.upright(self.left - 52.0, (self.top + bottom) / 2.0, y_name);
     }
 }
 
@@ -105,6 +134,8 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         assert_eq!(Scale::between(0.0, 1.0).ticks(), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
+        assert_eq!(Scale::between(0.0, 12_000.0).ticks(), [0.0, 5000.0, 12_000.0]);
+        assert_eq!(Scale::between(1.0, 17.0).ticks(), [1.0, 5.0, 10.0, 17.0]);
         let decades = Scale::logarithmic([3e-9, 40.0].into_iter());
         assert_eq!(decades.ticks().len(), 6);
         assert_eq!((decades.share(1e-9), decades.share(100.0), decades.share(0.0)), (0.0, 1.0, 0.0));

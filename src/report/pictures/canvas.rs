@@ -1,54 +1,179 @@
-//! SVG, written by hand: the few elements the pictures need.
+//! SVG, written by hand: the few elements the pictures need, legible on white and on dark grounds.
 
 use std::fmt::Write as _;
 
-/// Okabe and Ito's colours, which colour-blind people can tell apart.
-pub const COLOURS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#b8a800"];
+use crate::report::text::plain;
+
+/// Colours of curves: Okabe and Ito's, which colour-blind people can tell apart, and lighter ones for dark grounds.
+const CURVES: [[&str; 2]; 8] = [
+    ["#0072b2", "#56b4e9"],
+    ["#d55e00", "#ff9e4a"],
+    ["#009e73", "#33c79b"],
+    ["#cc79a7", "#e39ac4"],
+    ["#e69f00", "#f0c04a"],
+    ["#56b4e9", "#9fd6f5"],
+    ["#000000", "#ffffff"],
+    ["#b8a800", "#d8d03a"],
+];
+
+/// What lines and areas are drawn with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ink {
+    /// Text and outlines.
+    Strong,
+    /// Axes and dimension lines.
+    Middle,
+    /// Grids.
+    Faint,
+    /// One of the curves' colours, which come round again after eight.
+    Curve(usize),
+}
+
+impl Ink {
+    fn class(self) -> &'static str {
+        match self {
+            Ink::Strong => "strong",
+            Ink::Middle => "middle",
+            Ink::Faint => "faint",
+            Ink::Curve(number) => ["k0", "k1", "k2", "k3", "k4", "k5", "k6", "k7"][number % 8],
+        }
+    }
+
+    /// On white, and on a dark ground.
+    fn colours(self) -> [&'static str; 2] {
+        match self {
+            Ink::Strong => ["#1a1a1a", "#e8e8e8"],
+            Ink::Middle => ["#767676", "#a0a8b0"],
+            Ink::Faint => ["#e2e2e2", "#363d45"],
+            Ink::Curve(number) => CURVES[number % CURVES.len()],
+        }
+    }
+
+    fn all() -> impl Iterator<Item = Ink> {
+        [Ink::Strong, Ink::Middle, Ink::Faint].into_iter().chain((0..CURVES.len()).map(Ink::Curve))
+    }
+}
+
+/// How a path is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Style {
+    /// Its line.
+    pub stroke: Ink,
+    /// The line's width.
+    pub width: f64,
+    /// Lengths of dashes and gaps; empty for an unbroken line.
+    pub dash: &'static str,
+    /// Whether the inside is tinted with the line's colour.
+    pub filled: bool,
+}
+
+impl Style {
+    /// An unbroken line.
+    pub const fn line(stroke: Ink, width: f64) -> Style {
+        Style { stroke, width, dash: "", filled: false }
+    }
+}
 
 /// A picture being drawn, in pixels from the upper left corner.
 pub struct Canvas {
     svg: String,
+    width: f64,
 }
 
+/// The ground on white and dark screens.
+const GROUND: [&str; 2] = ["#ffffff", "#16191d"];
+
+/// Pixels a letter of the heading takes at the most.
+const LETTER: f64 = 8.0;
+
 impl Canvas {
-    /// A white sheet with a title.
-    pub fn new(width: f64, height: f64, title: &str) -> Canvas {
-        let mut canvas = Canvas { svg: String::new() };
+    /// A sheet with a heading: what the problem is called, and below it what is shown.
+    pub fn new(width: f64, height: f64, title: &str, shown: &str) -> Canvas {
+        let (title, shown) = (escaped(&cut(title, (width - 40.0) / LETTER)), escaped(shown));
+        let mut svg = String::new();
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            canvas.svg,
+        let _ = write!(
+            svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
-             <text x=\"60\" y=\"24\" font-size=\"15\">{}</text>",
-            escaped(title)
+             <title>{title}</title>\n<desc>{shown}</desc>\n<style>\n{}</style>\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"{}\" class=\"ground\"/>\n\
+             <text x=\"20\" y=\"24\" font-size=\"15\" font-weight=\"bold\" fill=\"{}\" class=\"strong t\">{title}</text>\n\
+             <text x=\"20\" y=\"42\" fill=\"{}\" class=\"middle t\">{shown}</text>\n",
+            dark(),
+            GROUND[0],
+            Ink::Strong.colours()[0],
+            Ink::Middle.colours()[0],
         );
-        canvas
+        Canvas { svg, width }
+    }
+
+    /// The sheet's width.
+    pub fn width(&self) -> f64 {
+        self.width
     }
 
     /// A straight line from (x1, y1) to (x2, y2).
-    pub fn line(&mut self, [x1, y1, x2, y2]: [f64; 4], colour: &str) {
-        let _ = writeln!(self.svg, "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\"/>");
+    pub fn line(&mut self, [x1, y1, x2, y2]: [f64; 4], ink: Ink) {
+        let (colour, class) = (ink.colours()[0], ink.class());
+        let _ = writeln!(
+            self.svg,
+            "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" class=\"{class} s\"/>"
+        );
     }
 
     /// Text whose `anchor` (start, middle, end) is at x, its baseline at y.
     pub fn text(&mut self, x: f64, y: f64, anchor: &str, content: &str) {
-        let _ = writeln!(self.svg, "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{}</text>", escaped(content));
+        self.words([x, y], anchor, content, Ink::Strong, "");
+    }
+
+    /// The same, less strong: notes and numbers.
+    pub fn note(&mut self, x: f64, y: f64, anchor: &str, content: &str) {
+        self.words([x, y], anchor, content, Ink::Middle, "");
     }
 
     /// Text that runs upwards, its middle at (x, y).
     pub fn upright(&mut self, x: f64, y: f64, content: &str) {
-        let turn = format!("transform=\"rotate(-90 {x:.2} {y:.2})\"");
-        let _ = writeln!(self.svg, "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"middle\" {turn}>{}</text>", escaped(content));
+        self.words([x, y], "middle", content, Ink::Strong, &format!(" transform=\"rotate(-90 {x:.2} {y:.2})\""));
     }
 
-    /// A path by its data, with attributes for stroke and fill.
-    pub fn path(&mut self, data: &str, style: &str) {
-        let _ = writeln!(self.svg, "<path d=\"{data}\" {style}/>");
+    /// A number that runs upwards along a dimension line.
+    pub fn upright_note(&mut self, x: f64, y: f64, content: &str) {
+        self.words([x, y], "middle", content, Ink::Middle, &format!(" transform=\"rotate(-90 {x:.2} {y:.2})\""));
     }
 
-    /// A dot.
-    pub fn dot(&mut self, x: f64, y: f64, radius: f64, colour: &str) {
-        let _ = writeln!(self.svg, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{colour}\"/>");
+    fn words(&mut self, [x, y]: [f64; 2], anchor: &str, content: &str, ink: Ink, turn: &str) {
+        let (colour, class, content) = (ink.colours()[0], ink.class(), escaped(content));
+        let _ = writeln!(
+            self.svg,
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\" fill=\"{colour}\" class=\"{class} t\"{turn}>{content}</text>"
+        );
+    }
+
+    /// A path by its data.
+    pub fn path(&mut self, data: &str, style: Style) {
+        let Style { stroke, width, dash, filled } = style;
+        let (colour, class) = (stroke.colours()[0], stroke.class());
+        let fill = if filled {
+            format!("fill=\"{colour}\" fill-opacity=\"0.22\" fill-rule=\"evenodd\"")
+        } else {
+            "fill=\"none\"".into()
+        };
+        let dash = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
+        let also = if filled { " a" } else { "" };
+        let _ = writeln!(
+            self.svg,
+            "<path d=\"{data}\" {fill} stroke=\"{colour}\" stroke-width=\"{width}\"{dash} class=\"{class} s{also}\"/>"
+        );
+    }
+
+    /// A dot; an empty one stands for a value that lies beyond the axis.
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, ink: Ink, full: bool) {
+        let (colour, class) = (ink.colours()[0], ink.class());
+        let drawn = match full {
+            true => format!("fill=\"{colour}\" class=\"{class} a\""),
+            false => format!("fill=\"none\" stroke=\"{colour}\" class=\"{class} s\""),
+        };
+        let _ = writeln!(self.svg, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" {drawn}/>");
     }
 
     /// The finished picture.
@@ -56,6 +181,17 @@ impl Canvas {
         self.svg.push_str("</svg>\n");
         self.svg
     }
+}
+
+/// The colours for dark grounds; those for white stand at each element, for viewers that know no style sheets.
+fn dark() -> String {
+    let mut css = format!("@media (prefers-color-scheme: dark) {{\n.ground {{ fill: {} }}\n", GROUND[1]);
+    for ink in Ink::all() {
+        let (class, [_, colour]) = (ink.class(), ink.colours());
+        let _ = writeln!(css, ".{class}.s {{ stroke: {colour} }} .{class}.t, .{class}.a {{ fill: {colour} }}");
+    }
+    css.push_str("}\n");
+    css
 }
 
 /// Path data through points; points that are no numbers interrupt it.
@@ -74,8 +210,17 @@ pub fn through(points: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Stri
     data
 }
 
+/// As many letters of a text as there is room for.
+pub fn cut(text: &str, room: f64) -> String {
+    let room = room.max(4.0) as usize;
+    match text.chars().count() > room {
+        true => text.chars().take(room - 1).chain(['…']).collect(),
+        false => text.into(),
+    }
+}
+
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    plain(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]
@@ -87,5 +232,17 @@ mod tests {
         let points = [[0.0, 0.0], [1.0, f64::NAN], [2.0, 1.0], [3.0, 1.0]];
         assert_eq!(through(points, false), "M0.00 0.00M2.00 1.00L3.00 1.00");
         assert_eq!(through([[0.0, 0.0], [1.0, 2.0]], true), "M0.00 0.00L1.00 2.00Z");
+    }
+
+    #[test]
+    fn every_ink_has_a_dark_colour_and_names_are_text() {
+        let svg = Canvas::new(100.0, 50.0, "a<b\u{1b}", "what").finish();
+        assert!(svg.contains("prefers-color-scheme: dark") && svg.contains(".k7.s"));
+        assert!(svg.contains("<title>a&lt;b\u{fffd}</title>") && svg.contains("<desc>what</desc>"));
+    }
+
+    #[test]
+    fn long_texts_are_cut() {
+        assert_eq!((cut("abcdef", 5.0), cut("abc", 5.0)), ("abcd…".into(), "abc".into()));
     }
 }

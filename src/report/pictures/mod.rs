@@ -1,7 +1,8 @@
-//! Pictures of a run as SVG: how the backends converged, the sections before and after, the line of ribs and its profiles.
+//! Pictures of a run as SVG: how the backends converged, the sections before and after, the lines of ribs and their profiles.
 
 mod axes;
 pub(super) mod canvas;
+mod chains;
 mod convergence;
 mod cross_sections;
 mod elevation;
@@ -12,16 +13,25 @@ pub use cross_sections::{cross_section, cross_sections};
 pub use elevation::elevation;
 pub use profiles::profiles;
 
+use super::About;
+use canvas::{Canvas, Ink, Style};
+
 /// Grey and dashed: before.
-const BEFORE: &str = "fill=\"none\" stroke=\"#888888\" stroke-width=\"1.2\" stroke-dasharray=\"5 3\"";
+const BEFORE: Style = Style { stroke: Ink::Middle, width: 1.0, dash: "4 3", filled: false };
 
 /// Filled: after.
-const AFTER: &str = "fill=\"#0072b2\" fill-opacity=\"0.25\" fill-rule=\"evenodd\" stroke=\"#0072b2\" stroke-width=\"1.4\"";
+const AFTER: Style = Style { stroke: Ink::Curve(0), width: 1.5, dash: "", filled: true };
 
 /// Explains [`BEFORE`] and [`AFTER`] at the upper right.
-fn before_and_after(canvas: &mut canvas::Canvas, right: f64, y: f64) {
-    canvas.path(&format!("M{} {y}h24", right - 190.0), BEFORE);
-    canvas.text(right - 160.0, y + 4.0, "start", "start");
-    canvas.path(&format!("M{} {}h24v8h-24Z", right - 100.0, y - 4.0), AFTER);
-    canvas.text(right - 70.0, y + 4.0, "start", "answer");
+fn before_and_after(canvas: &mut Canvas) {
+    let (right, y) = (canvas.width() - 10.0, 38.0);
+    canvas.path(&format!("M{} {y}h24", right - 170.0), BEFORE);
+    canvas.text(right - 140.0, y + 4.0, "start", "start");
+    canvas.path(&format!("M{} {}h24v8h-24Z", right - 85.0, y - 4.0), AFTER);
+    canvas.text(right - 55.0, y + 4.0, "start", "answer");
+}
+
+/// `height, in mm`; the name alone where the file gives no unit.
+fn with_unit(name: &str, about: &About) -> String {
+    about.unit("length").map_or_else(|| name.into(), |unit| format!("{name}, in {unit}"))
 }

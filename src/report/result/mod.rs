@@ -79,7 +79,8 @@ impl Head<'_> {
         map.serialize_entry("remedy", &outcome.remedy)?;
         map.serialize_entry("objective", &findings.objective())?;
         map.serialize_entry("lower_bound", &findings.lower_bound())?;
-        map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)
+        map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)?;
+        map.serialize_entry("mass", &findings.mass)
     }
 }
 
@@ -130,6 +131,7 @@ struct ProblemPart<'a> {
     class: String,
     sense: &'static str,
     objective: &'a str,
+    changes: &'a [String],
 }
 
 impl<'a> ProblemPart<'a> {
@@ -144,6 +146,7 @@ impl<'a> ProblemPart<'a> {
             class: findings.class.to_string(),
             sense: if findings.sign() < 0.0 { "maximize" } else { "minimize" },
             objective: &about.objective,
+            changes: &about.changes,
         }
     }
 }

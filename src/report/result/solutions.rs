@@ -38,6 +38,7 @@ impl Serialize for SolutionsPart<'_> {
 #[derive(Serialize)]
 struct SolutionPart<'a> {
     backend: &'static str,
+    attempt: usize,
     algorithm: &'a str,
     termination: &'static str,
     message: &'a str,
@@ -65,6 +66,7 @@ impl<'a> SolutionPart<'a> {
         let solution = &answer.solution;
         SolutionPart {
             backend: answer.backend,
+            attempt: answer.attempt,
             algorithm: &solution.algorithm,
             termination: termination(solution.termination),
             message: &solution.message,

@@ -153,7 +153,7 @@ impl Engine<'_> {
                 self.form.tighten();
                 // A run told to stop keeps the point as it is.
                 let _ = self.polish();
-                (Termination::Converged, format!("no further progress: optimality error {:.1e}", self.errors.largest()), None)
+                (Termination::Converged, format!("converged: optimality error {:.1e}", self.errors.largest()), None)
             }
             Ending::Infeasible => {
                 let violation = self.form.violation(&self.iterate.rows);

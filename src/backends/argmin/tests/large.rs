@@ -24,6 +24,7 @@ impl Chain {
                 lower: vec![0.1; n],
                 upper: vec![10.0; n],
                 start: vec![3.0; n],
+                typical: vec![3.0; n],
                 row_lower: vec![1.0; n - 1],
                 row_upper: vec![f64::INFINITY; n - 1],
                 row_is_linear: vec![false; n - 1],

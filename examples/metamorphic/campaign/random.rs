@@ -1,0 +1,48 @@
+//! Repeatable choices.
+
+use ribopt::math::split_mix::SplitMix;
+
+/// A repeatable stream of choices.
+pub struct Random(SplitMix);
+
+impl Random {
+    /// The stream of one run: its seed and number decide, so that a run can be repeated alone.
+    pub fn of_run(seed: u64, run: usize) -> Random {
+        let mixed = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ (run as u64).wrapping_mul(0xA24B_AED4_963E_E407);
+        let mut stream = SplitMix::new(mixed);
+        stream.uniform();
+        Random(stream)
+    }
+
+    /// Uniform in [from, to).
+    pub fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.0.uniform()
+    }
+
+    /// One of 0 … n − 1.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((self.0.uniform() * n as f64) as usize).min(n.saturating_sub(1))
+    }
+
+    pub fn coin(&mut self) -> bool {
+        self.below(2) == 0
+    }
+
+    /// 10^±3 or 10^±6.
+    pub fn factor(&mut self) -> f64 {
+        [1e-6, 1e-3, 1e3, 1e6][self.below(4)]
+    }
+
+    /// Of either sign, its magnitude spread evenly in logarithms over 10^from … 10^to.
+    pub fn of_magnitude(&mut self, from: f64, to: f64) -> f64 {
+        let sign = if self.coin() { 1.0 } else { -1.0 };
+        sign * 10f64.powf(self.between(from, to))
+    }
+
+    /// Fisher and Yates.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for last in (1..items.len()).rev() {
+            items.swap(last, self.below(last + 1));
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Whether a point meets its limits: its own violation, the nearest point that meets them to the last digit, and points that
+//! meet them only because they are far away.
+
+use super::point::Point;
+use super::scales;
+use super::second_order::Kkt;
+use super::{Place, Worst, worse};
+
+/// A variable this many times its known size is far away.
+const FAR: f64 = 10.0;
+/// Newton steps, and how often one is computed anew without variables that bounds hold.
+const STEPS: usize = 6;
+const PASSES: usize = 4;
+/// How far, relative to the variables' sizes, a point beside one that lies far out may be.
+const BESIDE: f64 = 1e-3;
+/// Roundings in a row's value.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+/// Violations this many times what a step of the tolerance in every variable makes of a row are worth no look beside.
+const WORTH_A_LOOK: f64 = 10.0;
+
+/// How well a point meets rows and bounds.
+pub(super) struct Feasibility {
+    /// The worst relative violation, or the relative distance to a point that has none worth the name.
+    pub(super) infeasibility: f64,
+    /// The rows are met only beside variables that have grown large.
+    pub(super) only_far_away: bool,
+}
+
+/// Judges a point. A violation beyond the tolerance of the row's own terms is none where a point without one lies within the
+/// tolerance of the variables' sizes: x·y = 0 is met at (1e−20, 1e−20), where the terms themselves are nothing.
+pub(super) fn of(point: &Point<'_>, tolerance: f64) -> Feasibility {
+    let worst = worst_violation(point).1;
+    if worst > tolerance {
+        let infeasibility = distance_to_feasible(point, tolerance).unwrap_or(worst);
+        return Feasibility { infeasibility, only_far_away: false };
+    }
+    match out_of_reach(point, tolerance) {
+        Some(infeasibility) => Feasibility { infeasibility, only_far_away: true },
+        None => Feasibility { infeasibility: worst, only_far_away: false },
+    }
+}
+
+/// The worst relative violation and where.
+pub(super) fn worst_violation(point: &Point<'_>) -> Worst {
+    let rows = (0..point.rows.len()).map(|i| (Place::Row(i), point.row_violation(i)));
+    let bounds = (0..point.x.len()).map(|j| (Place::Variable(j), point.bound_violation(j)));
+    rows.chain(bounds).fold((None, 0.0), worse)
+}
+
+/// max_j |x̃_j − x_j|/d_j of a point x̃ that meets every row in the measure of its own terms, where that is at most `tolerance`:
+/// what is zero but for rounding is set to zero, then Newton steps lead back to the rows.
+fn distance_to_feasible(point: &Point<'_>, tolerance: f64) -> Option<f64> {
+    let is_near = |i: usize| {
+        let (violation, limit) = point.row_excess(i);
+        violation <= WORTH_A_LOOK * tolerance * limit.abs().max(point.slopes[i])
+    };
+    let bounds_are_met = (0..point.x.len()).all(|j| point.bound_violation(j) <= tolerance);
+    if !bounds_are_met || !(0..point.rows.len()).all(is_near) {
+        return None;
+    }
+    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
+    let mut x: Vec<f64> =
+        point.x.iter().zip(&point.sizes).map(|(&x, d)| if x.abs() <= tolerance * d { 0.0 } else { x }).collect();
+    point.meta().clamp(&mut x);
+    for _ in 0..=STEPS {
+        let distance = x.iter().zip(point.x).zip(&point.sizes).fold(0.0, |most: f64, ((a, b), d)| most.max((a - b).abs() / d));
+        if distance > tolerance {
+            return None;
+        }
+        let at = Point::new(point.origin, &x).ok()?;
+        if worst_violation(&at).1 <= tolerance {
+            return Some(distance);
+        }
+        x = step_back(&at, &violated)?;
+    }
+    None
+}
+
+/// The worst relative violation of a row beside the variables' known sizes, where that is more than `tolerance` and cannot be
+/// taken off nearby; else `None`. The point meets all rows in its own measure, which grows with the variables, so that even
+/// x + y = 1 and x + y = 1.000001 are both met once x and −y are large enough. It counts as feasible only where one that
+/// meets the rows beside the known sizes lies near.
+fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
+    if (0..point.rows.len()).all(|i| point.row_violation(i) == 0.0) {
+        return None;
+    }
+    let near = near_scales(point);
+    let worst = worst(point, &near);
+    if worst <= tolerance {
+        return None;
+    }
+    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
+    let beside = |x: &[f64]| x.iter().zip(point.x).zip(&point.sizes).all(|((a, b), d)| (a - b).abs() <= BESIDE * d);
+    let mut x = point.x.to_vec();
+    for _ in 0..STEPS {
+        let Some(next) = Point::new(point.origin, &x).ok().and_then(|at| step_back(&at, &violated)) else { return Some(worst) };
+        x = next;
+        let Ok(moved) = Point::new(point.origin, &x) else { return Some(worst) };
+        if !beside(&x) {
+            return Some(worst);
+        }
+        if self::worst(&moved, &near) <= tolerance {
+            return None;
+        }
+    }
+    Some(worst)
+}
+
+/// The variables' sizes with those far away held back.
+fn near_scales(point: &Point<'_>) -> Vec<f64> {
+    let known = scales::known_sizes(point.meta(), &point.jacobian);
+    point.sizes.iter().zip(known).map(|(d, known)| d.min(FAR * known)).collect()
+}
+
+/// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), less what rounding explains.
+fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
+    let meta = point.meta();
+    let one = |i: usize| {
+        let (violation, limit) = point.row_excess(i);
+        if violation <= 0.0 {
+            return 0.0;
+        }
+        let (mut slope, mut terms) = (0.0f64, limit.abs());
+        for at in meta.jacobian.range(i) {
+            let j = meta.jacobian.columns[at] as usize;
+            slope = slope.max((point.jacobian[at] * near[j]).abs());
+            terms += (point.jacobian[at] * point.x[j]).abs();
+        }
+        (violation - ROUNDINGS * terms).max(0.0) / limit.abs().max(slope).max(f64::MIN_POSITIVE)
+    };
+    (0..point.rows.len()).map(one).fold(0.0, f64::max)
+}
+
+/// One Newton step, the shortest in the variables' sizes, to the limits of the rows wanted; variables that it would take past a
+/// bound stay where they are.
+pub(super) fn step_back(point: &Point<'_>, wanted: &dyn Fn(&Point<'_>, usize) -> bool) -> Option<Vec<f64>> {
+    let meta = point.meta();
+    let mut free: Vec<usize> = (0..point.x.len()).filter(|&j| meta.lower[j] < meta.upper[j]).collect();
+    let is_held = |&i: &usize| point.slopes[i] > 0.0 && (meta.row_lower[i] == meta.row_upper[i] || wanted(point, i));
+    let held: Vec<usize> = (0..meta.rows()).filter(is_held).collect();
+    for _ in 0..PASSES {
+        let step = shortest(point, &free, &held)?;
+        let stays_inside = |j: usize| step[j] >= meta.lower[j] && step[j] <= meta.upper[j];
+        if free.iter().all(|&j| stays_inside(j)) {
+            return Some(step);
+        }
+        free.retain(|&j| stays_inside(j));
+    }
+    None
+}
+
+/// The point a Newton step with these variables alone leads to.
+fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64>> {
+    let mut kkt = Kkt::without_hessian(point, free, held).ok()?;
+    kkt.factor_projection().ok()?;
+    let lack = |(k, &i): (usize, &usize)| (nearest_limit(point, i) - point.rows[i]) / kkt.slope(k);
+    let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().enumerate().map(lack)).collect();
+    let step = kkt.solve(&right).ok()?;
+    let mut x = point.x.to_vec();
+    for (&j, step) in free.iter().zip(step) {
+        x[j] += step * point.sizes[j];
+    }
+    Some(x)
+}
+
+fn nearest_limit(point: &Point<'_>, i: usize) -> f64 {
+    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
+    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
+}

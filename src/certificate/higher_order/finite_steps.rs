@@ -1,0 +1,212 @@
+//! Beyond second order: where the Lagrangian hardly bends along a direction, only steps of finite length tell a minimum from an
+//! inflection (x³), a monkey saddle or a bent valley that leads down.
+//!
+//! Each flat direction is followed both ways over growing steps. Every point is drawn back to the active limits and down the
+//! directions that do bend, by chord steps with [D∇²L D/σ + |…| + I, Aᵀ; A, −δI]; the first change of the objective that rounding
+//! and the point's own slope do not explain decides.
+
+use super::trial_point::Trial;
+use crate::certificate::Tolerances;
+use crate::certificate::multipliers::Multipliers;
+use crate::certificate::point::Point;
+use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
+use crate::linear_algebra::FactorizationError;
+use crate::model::Model;
+
+/// Directions bending less than this, in units of σ, are followed: an inflection may hide as near as the slope test allows.
+const FLAT: f64 = 1e-2;
+/// Lengths, relative to the variables' sizes.
+const STEPS: [f64; 9] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
+const CORRECTIONS: usize = 8;
+/// Directions followed at the most, and the sum of orders of the systems solved for them.
+const DIRECTIONS: usize = 24;
+const WORK: usize = 20_000;
+/// An inflection with the third derivative r that hides within the accepted slope, ½r·δ² ≤ optimality at the distance δ, shows the
+/// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
+/// off than κ·step = NEAR·optimality is another valley's.
+const NEAR: f64 = 20.0;
+/// Limits nearer than this are left or kept by a step, and corrections do not run against them.
+const BESIDE: f64 = 1e-3;
+/// Rounding of the objective and of rows on their limits, in units of σ.
+const NOISE: f64 = 1e-10;
+/// `escape` is stretched by this: second tries start at a tenth of it.
+const STRETCH: f64 = 10.0;
+
+/// A direction along which a stationary point is no minimum although no curvature shows it; in the user's variables, ten times
+/// the way to a feasible point that is lower.
+pub(in crate::certificate) fn find(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    tolerances: &Tolerances,
+    inwards: &[Vec<f64>],
+) -> Result<Option<Vec<f64>>, FactorizationError> {
+    let choice = Choice::relaxed_all(point, active, hessian);
+    let (free, strict) = (choice.loose_variables(), choice.strict_rows());
+    let most = DIRECTIONS.min(WORK / (free.len() + strict.len() + 1));
+    if free.is_empty() || most == 0 {
+        return Ok(None);
+    }
+    let mut kkt = Kkt::new(point, hessian, &free, &strict)?;
+    let flat = if kkt.is_flat(FLAT)? { kkt.flat_directions(most, FLAT)? } else { Vec::new() };
+    if flat.is_empty() && inwards.is_empty() {
+        return Ok(None);
+    }
+    Walk::from(point, active, hessian, tolerances, &choice)?.lower_point(inwards.iter().take(most).chain(&flat))
+}
+
+/// The same along one direction: whether it leads to a lower point indeed.
+pub(in crate::certificate) fn confirm(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    tolerances: &Tolerances,
+    direction: &[f64],
+) -> bool {
+    let size = |(step, size): (&f64, &f64)| (step / size).abs();
+    let largest = direction.iter().zip(&point.sizes).map(size).fold(f64::MIN_POSITIVE, f64::max);
+    let unit: Vec<f64> = direction.iter().map(|step| step / largest).collect();
+    let walk = Walk::from(point, active, hessian, tolerances, &Choice::relaxed_all(point, active, hessian));
+    matches!(walk.and_then(|walk| walk.lower_point(std::iter::once(&unit))), Ok(Some(_)))
+}
+
+struct Walk<'w, 'p> {
+    point: &'w Point<'p>,
+    multipliers: &'w Multipliers,
+    hessian: &'w Hessian,
+    tolerances: &'w Tolerances,
+    /// Free variables; with those on weakly active bounds, which corrections leave where a step has put them.
+    free: Vec<usize>,
+    loose: Vec<usize>,
+    /// Rows near a limit, and which of them are not strictly active: these may be left, and are only gone back to.
+    held: Vec<usize>,
+    may_be_left: Vec<bool>,
+    kkt: Kkt<'w>,
+    /// The objective at the point and its Lagrangian, the lower first: going to a limit that is missed by a little is neither a
+    /// fall nor a rise.
+    here: (f64, f64),
+    /// ∇f + Jᵀy
+    slopes: Vec<f64>,
+}
+
+impl<'w, 'p> Walk<'w, 'p> {
+    fn from(
+        point: &'w Point<'p>,
+        active: &Active<'w>,
+        hessian: &'w Hessian,
+        tolerances: &'w Tolerances,
+        choice: &Choice,
+    ) -> Result<Self, FactorizationError> {
+        let (meta, strict) = (point.meta(), choice.strict_rows());
+        let is_apart = |&j: &usize| (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]) > BESIDE * point.sizes[j];
+        let free: Vec<usize> = choice.free.iter().copied().filter(is_apart).collect();
+        let distance = |i: usize| (point.rows[i] - meta.row_lower[i]).min(meta.row_upper[i] - point.rows[i]);
+        let is_near = |&i: &usize| point.slopes[i] > 0.0 && distance(i) <= BESIDE * point.slopes[i];
+        let held: Vec<usize> = (0..meta.rows()).filter(is_near).collect();
+        let may_be_left = held.iter().map(|i| strict.binary_search(i).is_err()).collect();
+        let mut kkt = Kkt::new(point, hessian, &free, &held)?;
+        kkt.factor_proximal()?;
+        let multipliers = active.multipliers;
+        let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
+        let here = (point.objective.min(balanced), point.objective.max(balanced));
+        let slopes = point.row_gradient(&multipliers.rows);
+        Ok(Walk {
+            point,
+            multipliers,
+            hessian,
+            tolerances,
+            free,
+            loose: choice.loose_variables(),
+            held,
+            may_be_left,
+            kkt,
+            here,
+            slopes,
+        })
+    }
+
+    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
+        let mut directions = directions;
+        Ok(directions.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
+    }
+
+    /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
+    fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
+        let point = self.point;
+        let curvature = self.hessian.bend(point, direction);
+        for step in STEPS.into_iter().take_while(|step| curvature * step <= NEAR * self.tolerances.optimality) {
+            let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
+            let Some(x) = self.corrected(far, step) else { continue };
+            let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
+                continue;
+            };
+            let value = trial.penalised(point, self.multipliers);
+            let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
+            if value < self.here.0 - explained {
+                return Some(x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect());
+            }
+            if value > self.here.1 + explained {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// What the point's own slope may make of the way to x (of a convex function no fall is deeper), and rounding.
+    fn explained(&self, x: &[f64]) -> f64 {
+        let slope = |&j: &usize| (self.slopes[j] * (x[j] - self.point.x[j])).abs();
+        2.0 * self.loose.iter().map(slope).sum::<f64>() + NOISE * self.point.scale()
+    }
+
+    /// Keeps x no farther away than twice the step, relative to the variables' sizes: what is farther is another valley's.
+    fn keep_beside(&self, x: &mut [f64], step: f64) {
+        let point = self.point;
+        for &j in &self.free {
+            let reach = 2.0 * step * point.sizes[j];
+            x[j] = x[j].max(point.x[j] - reach).min(point.x[j] + reach);
+        }
+    }
+
+    /// Chord steps towards the active limits and down the directions that bend, inside the bounds.
+    fn corrected(&self, mut x: Vec<f64>, length: f64) -> Option<Vec<f64>> {
+        let (point, meta) = (self.point, self.point.meta());
+        meta.clamp(&mut x);
+        for _ in 0..CORRECTIONS {
+            let right = self.residual(&x)?;
+            let step = self.kkt.solve(&right).ok()?;
+            let mut longest = 0.0f64;
+            for (&j, step) in self.free.iter().zip(&step) {
+                x[j] += step * point.sizes[j];
+                longest = longest.max(step.abs());
+            }
+            self.keep_beside(&mut x, length);
+            meta.clamp(&mut x);
+            if !longest.is_finite() {
+                return None;
+            }
+            if longest < 1e-12 {
+                break;
+            }
+        }
+        Some(x)
+    }
+
+    /// [−D∇L/σ over the free variables; limit − c over the held rows, each over its slope]
+    fn residual(&self, x: &[f64]) -> Option<Vec<f64>> {
+        let (point, meta, model) = (self.point, self.point.meta(), &self.point.origin.model);
+        let (mut total, mut rows, mut jacobian) =
+            (vec![0.0; meta.variables()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+        model.gradient(x, &mut total).ok()?;
+        model.constraints(x, &mut rows).ok()?;
+        model.jacobian(x, &mut jacobian).ok()?;
+        meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
+        let slopes = self.free.iter().map(|&j| -total[j] * point.sizes[j] / point.scale());
+        let lack = |(k, &i): (usize, &usize)| {
+            let inside = rows[i].max(meta.row_lower[i]).min(meta.row_upper[i]);
+            let to = if self.may_be_left[k] { inside } else { point.row_limit(i, self.multipliers.rows[i]) };
+            (to - rows[i]) / self.kkt.slope(k)
+        };
+        let lacks = self.held.iter().enumerate().map(lack);
+        Some(slopes.chain(lacks).collect())
+    }
+}

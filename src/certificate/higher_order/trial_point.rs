@@ -1,0 +1,63 @@
+//! Values at other points than the judged one, measured with that one's scales.
+
+use crate::certificate::multipliers::Multipliers;
+use crate::certificate::point::Point;
+use crate::model::Model;
+
+/// Roundings a sum of such magnitudes may hide.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+/// Objective and rows at another point.
+pub(in crate::certificate) struct Trial<'x> {
+    x: &'x [f64],
+    pub(in crate::certificate) objective: f64,
+    rows: Vec<f64>,
+}
+
+impl<'x> Trial<'x> {
+    /// `None` where the model has no value.
+    pub(in crate::certificate) fn at(point: &Point<'_>, x: &'x [f64]) -> Option<Trial<'x>> {
+        let (model, mut rows) = (&point.origin.model, vec![0.0; point.meta().rows()]);
+        model.constraints(x, &mut rows).ok()?;
+        let objective = model.objective(x).ok()?;
+        Some(Trial { x, objective, rows })
+    }
+
+    /// Whether it meets bounds and rows as well as the judged point must.
+    pub(in crate::certificate) fn is_feasible(&self, point: &Point<'_>, tolerance: f64) -> bool {
+        let meta = point.meta();
+        let scale = |i: usize, limit: f64| tolerance * limit.abs().max(point.slopes[i]);
+        let meets = |i: usize| {
+            let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.rows[i]);
+            (lower.is_infinite() || value >= lower - scale(i, lower)) && (upper.is_infinite() || value <= upper + scale(i, upper))
+        };
+        let inside = |j: usize| {
+            let slack = tolerance * point.sizes[j];
+            self.x[j] >= meta.lower[j] - slack && self.x[j] <= meta.upper[j] + slack
+        };
+        (0..self.x.len()).all(inside) && (0..self.rows.len()).all(meets)
+    }
+
+    /// f + yᵀ(c − limit) with the judged point's multipliers.
+    pub(in crate::certificate) fn lagrangian(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        self.terms(point, multipliers).map(|(y, distance)| y * distance).sum::<f64>() + self.objective
+    }
+
+    /// f + Σ|y_i|·violation_i: what violations within the tolerance gain is taken off again.
+    pub(in crate::certificate) fn penalised(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        self.terms(point, multipliers).map(|(y, distance)| (y * distance).max(0.0)).sum::<f64>() + self.objective
+    }
+
+    /// What rounding may make of either.
+    pub(in crate::certificate) fn rounding(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        let size = |i: usize, y: f64| y.abs() * (self.rows[i].abs() + point.row_limit(i, y).abs());
+        let rows: f64 = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0).map(|(i, &y)| size(i, y)).sum();
+        ROUNDINGS * (self.objective.abs() + rows)
+    }
+
+    /// (y_i, c_i − limit_i)
+    fn terms(&self, point: &Point<'_>, multipliers: &Multipliers) -> impl Iterator<Item = (f64, f64)> {
+        let with_multiplier = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0);
+        with_multiplier.map(|(i, &y)| (y, self.rows[i] - point.row_limit(i, y)))
+    }
+}

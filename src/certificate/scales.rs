@@ -1,0 +1,117 @@
+//! What the certificate measures by (docs/certificate.md, «Measures»): sizes of variables, terms of rows, and how steep the
+//! objective is about a point. Nothing here looks at a start the program has invented, nor at values or derivatives at a start.
+
+use super::point::Origin;
+use crate::model::{Meta, Model};
+
+/// Relative steps to places about a point, the first at which the model has a value is taken.
+const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
+
+/// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
+/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (1 where none was), and of bounds on both
+/// sides. A size that is too small makes a test stricter, never laxer.
+pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
+    let known = known_sizes(meta, jacobian);
+    let size = |(j, &x): (usize, &f64)| {
+        let size = if meta.lower[j] <= 0.0 && meta.upper[j] >= 0.0 { x.abs().max(known[j]) } else { x.abs() };
+        // Neither lost in an underflow nor, for an infeasible 0, nothing at all.
+        if size > f64::MIN_POSITIVE { size } else { known[j].max(f64::MIN_POSITIVE) }
+    };
+    x.iter().enumerate().map(size).collect()
+}
+
+/// What is known of the variables' sizes but for the point itself, see [`variable_sizes`].
+pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
+    let mut known: Vec<f64> = (0..meta.variables()).map(|j| declared_size(meta, j)).collect();
+    for i in 0..meta.rows() {
+        let limit = largest_limit(meta, i);
+        if limit == 0.0 {
+            continue;
+        }
+        for at in meta.jacobian.range(i) {
+            let (j, slope) = (meta.jacobian.columns[at] as usize, jacobian[at].abs());
+            if slope > 0.0 {
+                known[j] = known[j].min(limit / slope);
+            }
+        }
+    }
+    known
+}
+
+/// The magnitude of the start that was given, or 1; at the most that of the bounds.
+fn declared_size(meta: &Meta, j: usize) -> f64 {
+    let given = meta.typical.get(j).copied().filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0);
+    let within = meta.lower[j].abs().max(meta.upper[j].abs());
+    if within > 0.0 { given.min(within) } else { given }
+}
+
+fn largest_limit(meta: &Meta, i: usize) -> f64 {
+    [meta.row_lower[i], meta.row_upper[i]]
+        .into_iter()
+        .filter(|limit| limit.is_finite())
+        .fold(0.0, |most, limit| limit.abs().max(most))
+}
+
+/// Row by row the largest term |∂c_i/∂x_j·x_j|: for linear rows their terms, for others those of their first-order form.
+pub(super) fn row_terms(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
+    let term = |at: usize| (jacobian[at] * x[meta.jacobian.columns[at] as usize]).abs();
+    (0..meta.rows()).map(|i| meta.jacobian.range(i).map(term).fold(0.0, f64::max)).collect()
+}
+
+/// Row by row the mean slope over a relative step of all variables, |c_i(x') − c_i(x)| over the step, the larger of both ways:
+/// where a derivative has no end, this has. `None` where the model has no value about x.
+pub(super) fn mean_slopes(origin: &Origin<'_>, x: &[f64], rows: &[f64]) -> Option<Vec<f64>> {
+    ABOUT.into_iter().find_map(|step| {
+        let ways = [step, -step].map(|way| {
+            let mut values = vec![0.0; rows.len()];
+            origin.model.constraints(&moved(origin.meta(), x, x, way), &mut values).ok().map(|()| values)
+        });
+        let mut largest: Option<Vec<f64>> = None;
+        for values in ways.into_iter().flatten() {
+            let slopes = values.iter().zip(rows).map(|(there, here)| (there - here).abs() / step);
+            largest = Some(match largest {
+                Some(known) => known.iter().zip(slopes).map(|(known, slope)| known.max(slope)).collect(),
+                None => slopes.collect(),
+            });
+        }
+        largest
+    })
+}
+
+/// The largest slope |∂f/∂x_j|·d_j at the less steep of two places about x, each variable moved by up to a tenth of its size: how
+/// steep the objective is where it is stationary at x itself. 0 where it has no slope about x.
+pub(super) fn slope_about(origin: &Origin<'_>, x: &[f64], sizes: &[f64]) -> f64 {
+    let slope = |way: f64| {
+        let mut gradient = vec![0.0; x.len()];
+        origin.model.gradient(&moved(origin.meta(), x, sizes, way), &mut gradient).ok()?;
+        let slopes = gradient.iter().zip(sizes).map(|(g, d)| (g * d).abs());
+        Some(slopes.fold(0.0, f64::max)).filter(|slope| slope.is_finite())
+    };
+    let less_steep = |step: f64| match (slope(step), slope(-step)) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (one, other) => one.or(other),
+    };
+    ABOUT.into_iter().find_map(less_steep).unwrap_or(0.0)
+}
+
+/// Whether over a step of a tenth of its size in variable j alone ∂f/∂x_j changes by what a second derivative of this magnitude
+/// says, within a factor of two.
+pub(super) fn is_quadratic(origin: &Origin<'_>, x: &[f64], (j, size): (usize, f64), second: f64) -> bool {
+    let slope = |way: f64| {
+        let (mut there, mut gradient) = (x.to_vec(), vec![0.0; x.len()]);
+        there[j] += way;
+        origin.model.gradient(&there, &mut gradient).ok().map(|_| gradient[j])
+    };
+    let step = ABOUT[0] * size;
+    let said = second * step / size;
+    let change = slope(step).zip(slope(0.0)).map(|(there, here)| (there - here).abs());
+    change.is_some_and(|change| change > 0.5 * said && change < 2.0 * said)
+}
+
+/// x + way·u∘sizes inside the bounds, u in [½, 1] without a pattern, so that sums and differences of variables move, too.
+fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
+    let share = |j: usize| 0.5 + 0.5 * ((j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64 / (1u64 << 53) as f64;
+    let mut there: Vec<f64> = x.iter().zip(sizes).enumerate().map(|(j, (x, d))| x + way * share(j) * d.abs()).collect();
+    meta.clamp(&mut there);
+    there
+}

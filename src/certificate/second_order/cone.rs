@@ -1,0 +1,138 @@
+//! The critical cone: strictly active limits hold as equalities, weakly active ones on one side.
+//!
+//! With Q = W^½⁻¹ S W^½⁻¹ + shift over the loose variables (W the yardsticks of S), A the strict rows and G the weakly active
+//! limits, inwards, every row of the length one, the matrix [Q Aᵀ Gᵀ; A −δ 0; G 0 −δ] is factorised and solved for right-hand
+//! sides (0, 0, s): then u minimises uᵀQu + (|Au|² + |Gu − s|²)/δ, whose value sᵀMs is (as the multipliers are −Ms) known
+//! with it. Q bends up on the cone {Au = 0, Gu ≥ 0} where it does on its largest subspace and M is copositive: for u in the
+//! cone and s = Gu ≥ 0, uᵀQu ≥ sᵀMs ≥ 0. Conversely, what is weakened by δ is |Q|²δ/4 of curvature at the most. Rows may depend
+//! on one another.
+
+use super::system::{Active, Choice, Hessian, places, weight};
+use crate::certificate::Side;
+use crate::certificate::point::Point;
+use crate::linear_algebra::FactorizationError;
+use crate::linear_algebra::entries::Symmetric;
+
+/// δ: |Q| being 1, δ/4 must stay below ROUNDING (1e−7), and ε/δ, which rounding makes of M, too.
+const DELTA: f64 = 1e-7;
+
+/// How the matrix is stored and factorised: [`Symmetric::curved`] or [`Symmetric::one_of_many`].
+pub(super) type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
+
+pub(super) struct Cone<'a> {
+    point: &'a Point<'a>,
+    loose: Vec<usize>,
+    strict: usize,
+    weak: usize,
+    /// W^½⁻¹, over the loose variables.
+    scale: Vec<f64>,
+    /// Entries of Q, A and G: (row, column, value).
+    hessian: Vec<(u32, u32, f64)>,
+    strict_rows: Vec<(u32, u32, f64)>,
+    weak_rows: Vec<(u32, u32, f64)>,
+    matrix: Symmetric,
+}
+
+impl<'a> Cone<'a> {
+    pub(super) fn new(
+        point: &'a Point<'a>,
+        active: &Active<'_>,
+        hessian: &Hessian,
+        choice: &Choice,
+        build: Build,
+    ) -> Result<Self, FactorizationError> {
+        let (loose, strict) = (choice.loose_variables(), choice.strict_rows());
+        let place = places(point.meta().variables(), &loose);
+        let scale: Vec<f64> = loose.iter().map(|&j| weight(hessian.size[j]).sqrt().recip()).collect();
+        let entry = |(at, (row, column)): (usize, (usize, usize))| match (place[row], place[column]) {
+            (u32::MAX, _) | (_, u32::MAX) => None,
+            (a, b) => Some((a, b, hessian.values[at] * scale[a as usize] * scale[b as usize])),
+        };
+        let entries = point.meta().hessian.iter().enumerate().filter_map(entry).collect();
+        let row = |i: usize, sign: f64| -> Vec<(u32, f64)> {
+            let inside = point.row_in_sizes(i).filter(|&(j, value)| place[j] != u32::MAX && value != 0.0);
+            let scaled: Vec<_> = inside.map(|(j, value)| (place[j], sign * value * scale[place[j] as usize])).collect();
+            let length = scaled.iter().map(|entry| entry.1 * entry.1).sum::<f64>().sqrt();
+            scaled.into_iter().map(|(j, value)| (j, value / length)).collect()
+        };
+        let inwards = |side: Side| if side == Side::Upper { -1.0 } else { 1.0 };
+        let strict_rows: Vec<_> = strict.iter().map(|&i| row(i, 1.0)).collect();
+        let bounds = choice.weak_bounds.iter().map(|&j| vec![(place[j], inwards(active.bounds[j]))]);
+        let rows = choice.weak_rows.iter().map(|&i| row(i, inwards(active.rows[i])));
+        let weak_rows: Vec<_> = bounds.chain(rows).collect();
+        let (p, m, k) = (loose.len(), strict.len(), weak_rows.len());
+        let listed = |rows: Vec<Vec<(u32, f64)>>, first: usize| -> Vec<(u32, u32, f64)> {
+            let entry =
+                |(at, row): (usize, Vec<(u32, f64)>)| row.into_iter().map(move |(j, value)| ((first + at) as u32, j, value));
+            rows.into_iter().enumerate().flat_map(entry).collect()
+        };
+        let (strict_rows, weak_rows) = (listed(strict_rows, p), listed(weak_rows, p + m));
+        let hessian: Vec<(u32, u32, f64)> = entries;
+        let mut positions: Vec<(u32, u32)> = (0..(p + m + k) as u32).map(|at| (at, at)).collect();
+        positions.extend(hessian.iter().chain(&strict_rows).chain(&weak_rows).map(|entry| (entry.0, entry.1)));
+        let matrix = build(p + m + k, &positions)?;
+        Ok(Cone { point, loose, strict: m, weak: k, scale, hessian, strict_rows, weak_rows, matrix })
+    }
+
+    /// Whether Q, shifted, bends up on the null space of the strict rows, weakly active limits left aside: the sufficient test.
+    pub(super) fn bends_up_without_weak_limits(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+        self.factor(shift, 0.0, -1.0)
+    }
+
+    /// Whether Q, shifted, bends up on the cone's largest subspace, where all limits hold. To be called before the following.
+    pub(super) fn bends_up_on_subspace(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+        self.factor(shift, 1.0, -DELTA)
+    }
+
+    fn factor(&mut self, shift: f64, share: f64, weak: f64) -> Result<bool, FactorizationError> {
+        let (p, m, k) = (self.loose.len(), self.strict, self.weak);
+        let diagonal = std::iter::repeat_n(shift, p).chain(std::iter::repeat_n(-DELTA, m)).chain(std::iter::repeat_n(weak, k));
+        let entries = diagonal.chain(self.hessian.iter().chain(&self.strict_rows).map(|entry| entry.2));
+        let inertia = self.matrix.factor(entries.chain(self.weak_rows.iter().map(|entry| share * entry.2)))?;
+        Ok(inertia.positive == p && inertia.negative == m + k)
+    }
+
+    /// M, row by row.
+    pub(super) fn reduced(&self) -> Result<Vec<f64>, FactorizationError> {
+        let (first, k) = (self.loose.len() + self.strict, self.weak);
+        let mut reduced = Vec::with_capacity(k * k);
+        for i in 0..k {
+            let mut right = vec![0.0; first + k];
+            right[first + i] = 1.0;
+            reduced.extend(self.matrix.solve(&right)?[first..].iter().map(|multiplier| -multiplier));
+        }
+        Ok(reduced)
+    }
+
+    /// The direction that bends up least among those that leave the weakly active limits by s, in the user's variables, its
+    /// largest relative entry 1. `None` where it is not in the cone, by more than what δ may leave.
+    pub(super) fn direction(&self, s: &[f64]) -> Result<Option<Vec<f64>>, FactorizationError> {
+        let (p, first) = (self.loose.len(), self.loose.len() + self.strict);
+        let mut right = vec![0.0; first + self.weak];
+        right[first..].copy_from_slice(s);
+        let mut u = self.matrix.solve(&right)?;
+        u.truncate(p);
+        let length = u.iter().map(|u| u * u).sum::<f64>().sqrt();
+        let mut change = vec![0.0; self.strict + self.weak];
+        let rows = self.strict_rows.iter().chain(&self.weak_rows);
+        rows.for_each(|&(row, j, value)| change[row as usize - p] += value * u[j as usize]);
+        let slack = DELTA.sqrt() * length;
+        let is_inside = change[..self.strict].iter().all(|change| change.abs() <= slack)
+            && change[self.strict..].iter().all(|change| *change >= -slack);
+        let relative: Vec<f64> = u.iter().zip(&self.scale).map(|(u, scale)| u * scale).collect();
+        let largest = relative.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        if !(is_inside && largest > 0.0 && largest.is_finite()) {
+            return Ok(None);
+        }
+        let mut direction = vec![0.0; self.point.meta().variables()];
+        for (&j, v) in self.loose.iter().zip(relative) {
+            direction[j] = v / largest * self.point.sizes[j];
+        }
+        Ok(Some(direction))
+    }
+
+    /// Rows and variables of the matrix.
+    pub(super) fn order(&self) -> usize {
+        self.loose.len() + self.strict + self.weak
+    }
+}

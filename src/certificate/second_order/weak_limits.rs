@@ -1,0 +1,127 @@
+//! The sufficient condition where limits are weakly active: the Lagrangian bends up along every direction of the critical cone.
+
+use super::cone::{Build, Cone};
+use super::system::{Active, Choice, Hessian, ROUNDING};
+use crate::certificate::point::Point;
+use crate::linear_algebra::FactorizationError;
+use crate::linear_algebra::copositive::{self, Verdict};
+
+/// Faces of the cone looked at: all of thirteen weakly active limits that are all tied to one another.
+const FACES: usize = 8192;
+/// Solutions, one per weakly active limit, times the order of the matrix.
+const WORK: usize = 20_000_000;
+/// Weakly active limits at the most: M is dense.
+const MOST: usize = 512;
+/// A point that is a minimum only within this share of the variables' sizes, because nearly weakly active limits push, is none:
+/// 2·∇f·v/|vᵀ∇²L v| ≤ NEAREST. Where the Lagrangian bends by FLAT the accepted slope of 1e−6 leaves the point 1e−4 away, and a
+/// multiplier 1e−4·|S| from its value.
+const NEAREST: f64 = 1e-3;
+/// Faces whose curvature is less than this share of that of their edges are looked at beyond second order, so many of them.
+const LOW: f64 = 1e-3;
+const LOW_FACES: usize = 12;
+/// Directions bending less than this, in units of σ, are flat.
+const FLAT: f64 = 1e-2;
+
+/// What the critical cone says.
+#[derive(Debug, PartialEq)]
+pub(super) enum OnCone {
+    /// Bends down along no direction, and up along every one beyond rounding if it is strict. These directions, which leave weakly
+    /// active limits, hardly bend up.
+    Holds { is_strict: bool, flat: Vec<Vec<f64>> },
+    /// Bends down along this direction of the cone, in the user's variables.
+    Falls(Vec<f64>),
+    /// Neither is shown at so many weakly active limits.
+    Undecided(usize),
+}
+
+impl OnCone {
+    /// Nothing to be said of the cone.
+    pub(super) const PROVED: OnCone = OnCone::Holds { is_strict: true, flat: Vec::new() };
+}
+
+/// Judges the cone of the weakly active limits and, where that makes a difference this near, of those that nearly are.
+/// On the null space of all active limits the Lagrangian must not bend down.
+pub(super) fn judge(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    choice: &Choice,
+    build: Build,
+) -> Result<OnCone, FactorizationError> {
+    if let Some(relaxed) = choice.relaxed() {
+        match examine(point, active, hessian, &relaxed, build)? {
+            OnCone::Falls(direction) if is_near(point, hessian, &direction) => return Ok(OnCone::Falls(direction)),
+            OnCone::Falls(_) | OnCone::Undecided(_) => {}
+            proved => return Ok(proved),
+        }
+    }
+    if choice.weak() == 0 { Ok(OnCone::PROVED) } else { examine(point, active, hessian, choice, build) }
+}
+
+/// Whether the objective falls below the point's within a very small step.
+fn is_near(point: &Point<'_>, hessian: &Hessian, direction: &[f64]) -> bool {
+    let relative = |(step, size): (&f64, &f64)| (step / size).powi(2);
+    let square: f64 = direction.iter().zip(&point.sizes).map(relative).sum();
+    let slope: f64 = direction.iter().zip(&point.gradient).map(|(v, g)| v * g).sum::<f64>() / point.scale();
+    2.0 * slope <= -NEAREST * hessian.bend(point, direction) * square
+}
+
+fn examine(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    choice: &Choice,
+    build: Build,
+) -> Result<OnCone, FactorizationError> {
+    let k = choice.weak();
+    let mut cone = Cone::new(point, active, hessian, choice, build)?;
+    if cone.bends_up_without_weak_limits(-ROUNDING)? {
+        return Ok(OnCone::PROVED);
+    }
+    if cone.bends_up_without_weak_limits(ROUNDING)? {
+        return Ok(OnCone::Holds { is_strict: false, flat: Vec::new() });
+    }
+    if k > MOST || k * cone.order() > WORK || !cone.bends_up_on_subspace(ROUNDING)? {
+        return Ok(OnCone::Undecided(k));
+    }
+    let reduced = cone.reduced()?;
+    match copositive::test(&reduced, k, FACES) {
+        Verdict::Undecided => Ok(OnCone::Undecided(k)),
+        Verdict::Falls(s) => {
+            let falls = |direction: &Vec<f64>| hessian.bend(point, direction) < 0.0;
+            Ok(cone.direction(&s)?.filter(falls).map_or(OnCone::Undecided(k), OnCone::Falls))
+        }
+        Verdict::Copositive => {
+            let flat = flat_directions(point, hessian, &cone, &reduced, k)?;
+            let is_strict =
+                cone.bends_up_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
+            Ok(OnCone::Holds { is_strict, flat })
+        }
+    }
+}
+
+/// Directions that leave weakly active limits and hardly bend: of single limits, of faces, of two and of all at once.
+fn flat_directions(
+    point: &Point<'_>,
+    hessian: &Hessian,
+    cone: &Cone<'_>,
+    reduced: &[f64],
+    k: usize,
+) -> Result<Vec<Vec<f64>>, FactorizationError> {
+    let unit = |i: usize| (0..k).map(|j| if i == j { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+    let faces = copositive::low_vectors(reduced, k, LOW, LOW_FACES);
+    let mut flat = Vec::<Vec<f64>>::new();
+    for s in faces.into_iter().chain((0..k).take(LOW_FACES).map(unit)) {
+        let direction = cone.direction(&s)?.filter(|direction| hessian.bend(point, direction).abs() <= FLAT);
+        flat.extend(direction.filter(|direction| !flat.contains(direction)));
+    }
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
+    let single = flat.clone();
+    for (i, a) in single.iter().enumerate() {
+        flat.extend(single[..i].iter().map(|b| sum(a, b)).filter(|both| hessian.bend(point, both).abs() <= FLAT));
+    }
+    if single.len() > 2 {
+        flat.push(single[1..].iter().fold(single[0].clone(), |all, next| sum(&all, next)));
+    }
+    Ok(flat)
+}

@@ -1,0 +1,80 @@
+//! The second-order test of variables and rows as one system.
+
+use super::cone::Build;
+use super::kkt::Kkt;
+use super::null_space;
+use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::weak_limits::{self, OnCone};
+use crate::certificate::point::Point;
+use crate::linear_algebra::FactorizationError;
+
+/// What the second derivatives say.
+#[derive(Default)]
+pub(in crate::certificate) struct Curvature {
+    /// A direction of the critical cone along which the Lagrangian bends down, in the user's variables.
+    pub(in crate::certificate) escape: Option<Vec<f64>>,
+    /// The reduced Hessian is singular, or bends down.
+    pub(in crate::certificate) singular: bool,
+    /// The active rows are dependent over the free variables.
+    pub(in crate::certificate) dependent: bool,
+    /// Neither is shown; at so many weakly active limits.
+    pub(in crate::certificate) undecided: Option<usize>,
+    /// Directions that leave weakly active limits and hardly bend, in the user's variables.
+    pub(in crate::certificate) flat: Vec<Vec<f64>>,
+}
+
+impl Curvature {
+    pub(super) fn leave_undecided(&mut self, limits: usize) {
+        self.undecided = Some(self.undecided.unwrap_or(0) + limits);
+    }
+
+    pub(super) fn add(&mut self, on_cone: OnCone) {
+        match on_cone {
+            OnCone::Holds { is_strict, flat } => {
+                self.singular |= !is_strict;
+                self.flat.extend(flat);
+            }
+            OnCone::Falls(direction) => {
+                self.singular = true;
+                self.escape.get_or_insert(direction);
+            }
+            OnCone::Undecided(limits) => self.leave_undecided(limits),
+        }
+    }
+}
+
+/// The test over some variables and rows, which nothing outside them touches; on the cone of weakly active limits only where its
+/// matrix is to be built.
+pub(super) fn judge(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    choice: &Choice,
+    cone: Option<Build>,
+) -> Result<Curvature, FactorizationError> {
+    let (free, held) = (&choice.free, &choice.held);
+    // The rows alone make a far sparser matrix.
+    let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
+    // What bends up beyond rounding does not bend down.
+    let bends_up = matches!(null_space::bends_up(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
+    let mut curvature = if bends_up { Curvature::default() } else { on_null_space(point, hessian, free, held)? };
+    curvature.dependent = dependent;
+    if let Some(build) = cone.filter(|_| curvature.escape.is_none() && curvature.undecided.is_none()) {
+        curvature.add(weak_limits::judge(point, active, hessian, choice, build)?);
+    }
+    Ok(curvature)
+}
+
+/// How S bends on the null space of the rows.
+fn on_null_space(point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) -> Result<Curvature, FactorizationError> {
+    let mut kkt = Kkt::new(point, hessian, free, held)?;
+    let singular = kkt.bends_down(-ROUNDING)?;
+    let mut curvature = Curvature { singular, ..Curvature::default() };
+    if singular && kkt.bends_down(ROUNDING)? {
+        curvature.escape = kkt.lowest_direction(ROUNDING)?;
+        if curvature.escape.is_none() {
+            curvature.leave_undecided(0);
+        }
+    }
+    Ok(curvature)
+}

@@ -1,0 +1,54 @@
+//! Formulas of one item with its own names spelt out, so that they mean the same anywhere.
+
+use std::sync::Arc;
+
+use super::evaluate::{Evaluation, Item};
+use super::formula::Members;
+use super::range::end_section;
+use super::{Formula, Problem};
+use crate::expression::ast::Collection;
+
+impl Problem {
+    /// `formula` of this item and its group, as a formula without names of its own; `None` where a number is missing.
+    pub fn instance(&self, formula: &Formula, item: Item, group: &[u32]) -> Option<Formula> {
+        let go = |inner: &Formula| self.instance(inner, item, group);
+        let boxed = |inner: &Formula| go(inner).map(Box::new);
+        Some(match formula {
+            Formula::OwnProperty(property) => match item {
+                Item::Section(section) => Formula::SectionProperty(section, property.clone()),
+                _ => return None,
+            },
+            Formula::EndProperty(end, property) => Formula::SectionProperty(end_section(self, *end, item)?, property.clone()),
+            Formula::OwnVolume => match item {
+                Item::Rib(rib) => Formula::RibVolume(rib),
+                _ => return None,
+            },
+            Formula::OwnLength | Formula::OwnData(_) | Formula::EndData(..) => {
+                Formula::Constant(Evaluation::constants(self).value(formula, item)?)
+            }
+            Formula::Profile(profile, at) => {
+                let s = Evaluation::constants(self).value(at, item)?;
+                self.profiles.get(*profile as usize)?.at(s)?
+            }
+            Formula::Unary(op, inner) => Formula::Unary(*op, boxed(inner)?),
+            Formula::Binary(op, left, right) => Formula::Binary(*op, boxed(left)?, boxed(right)?),
+            Formula::Fold(fold, list) => Formula::Fold(*fold, list.iter().map(go).collect::<Option<_>>()?),
+            Formula::Over { fold, collection, members: Members::Group(thinned), body } => {
+                let chosen = |index: &u32| thinned.as_ref().is_none_or(|list| list.binary_search(index).is_ok());
+                let members = Members::Listed(Arc::new(group.iter().copied().filter(chosen).collect()));
+                Formula::Over { fold: *fold, collection: *collection, members, body: Arc::clone(body) }
+            }
+            global => global.clone(),
+        })
+    }
+
+    /// A fold over items written out, one formula per item; `None` where they are the members of a group that is not known.
+    pub fn instances(&self, collection: Collection, members: &Members, body: &Formula) -> Option<Vec<Formula>> {
+        let one = |index: u32| self.instance(body, Item::of(collection, index), &[]);
+        match members {
+            Members::All => (0..self.count(collection)).map(one).collect(),
+            Members::Listed(list) => list.iter().copied().map(one).collect(),
+            Members::Group(_) => None,
+        }
+    }
+}

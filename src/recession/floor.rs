@@ -1,0 +1,113 @@
+//! Newton steps to the floor of a valley: the point that is stationary in all variables but one, on the active rows.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::valley::Site;
+
+/// Newton steps at each place.
+const CORRECTIONS: usize = 12;
+/// A step below this, relative to the variables, ends the corrections.
+const SETTLED: f64 = 1e-10;
+/// Regularisation of the Hessian's diagonal, relative to the magnitudes of its row, and of rows that are dependent.
+const PROXIMAL: f64 = 1e-10;
+const DUAL: f64 = 1e-14;
+
+/// A place on the floor with the row multipliers there.
+#[derive(Clone)]
+pub(super) struct Floor {
+    pub(super) x: Vec<f64>,
+    pub(super) multipliers: Vec<f64>,
+}
+
+/// Leads the free variables but `pivot` to the floor; `None` where the model has no value on the way.
+pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<Floor> {
+    let moving: Vec<usize> = site.free.iter().copied().filter(|&j| j != pivot).collect();
+    if moving.is_empty() && site.held.is_empty() {
+        return Some(place);
+    }
+    for _ in 0..CORRECTIONS {
+        let step = newton_step(site, &moving, &place)?;
+        let mut longest = 0.0f64;
+        for (k, &j) in moving.iter().enumerate() {
+            let before = place.x[j];
+            place.x[j] = (before + step[k]).clamp(site.meta().lower[j], site.meta().upper[j]);
+            longest = longest.max((place.x[j] - before).abs() / (before.abs() + place.x[j].abs()).max(f64::MIN_POSITIVE));
+        }
+        for (k, &(i, _)) in site.held.iter().enumerate() {
+            place.multipliers[i] += step[moving.len() + k];
+        }
+        if !place.x.iter().chain(&place.multipliers).all(|value| value.is_finite()) {
+            return None;
+        }
+        if longest <= SETTLED {
+            return Some(place);
+        }
+    }
+    // A variable that goes to zero never settles by its own measure; the height judges the place.
+    Some(place)
+}
+
+/// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes its own curvature one.
+fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor) -> Option<Vec<f64>> {
+    let (meta, model) = (site.meta(), site.model);
+    let (n, m) = (moving.len(), site.held.len());
+    let mut slope = vec![0.0; meta.variables()];
+    let (mut rows, mut jacobian, mut hessian) =
+        (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()], vec![0.0; meta.hessian.len()]);
+    model.gradient(&place.x, &mut slope).ok()?;
+    model.constraints(&place.x, &mut rows).ok()?;
+    model.jacobian(&place.x, &mut jacobian).ok()?;
+    model.hessian(&place.x, 1.0, &place.multipliers, &mut hessian).ok()?;
+    meta.jacobian.add_transposed(&jacobian, &place.multipliers, &mut slope);
+    let mut at = vec![usize::MAX; meta.variables()];
+    moving.iter().enumerate().for_each(|(k, &j)| at[j] = k);
+    let mut matrix = DMatrix::<f64>::zeros(n + m, n + m);
+    for ((row, column), value) in meta.hessian.iter().zip(hessian) {
+        if at[row] != usize::MAX && at[column] != usize::MAX {
+            matrix[(at[row], at[column])] += value;
+            if row != column {
+                matrix[(at[column], at[row])] += value;
+            }
+        }
+    }
+    let size: Vec<f64> = (0..n).map(|k| (0..n).map(|l| matrix[(k, l)].abs()).sum()).collect();
+    for (k, &(i, _)) in site.held.iter().enumerate() {
+        for entry in meta.jacobian.range(i) {
+            let j = at[meta.jacobian.columns[entry] as usize];
+            if j != usize::MAX {
+                matrix[(n + k, j)] = jacobian[entry];
+                matrix[(j, n + k)] = jacobian[entry];
+            }
+        }
+    }
+    let mut right = DVector::<f64>::zeros(n + m);
+    moving.iter().enumerate().for_each(|(k, &j)| right[k] = -slope[j]);
+    site.held.iter().enumerate().for_each(|(k, &(i, limit))| right[n + k] = limit - rows[i]);
+    let unit = balance(&mut matrix, &mut right, &size, m);
+    let solution = matrix.full_piv_lu().solve(&right)?;
+    Some(solution.iter().zip(&unit).map(|(value, unit)| value * unit).collect())
+}
+
+/// Scales rows and columns alike: variables by their curvature (by the rows where they have none), rows by their largest entry;
+/// adds the regularisation. The scales.
+fn balance(matrix: &mut DMatrix<f64>, right: &mut DVector<f64>, size: &[f64], m: usize) -> Vec<f64> {
+    let n = size.len();
+    let mut unit: Vec<f64> = size.iter().map(|size| if *size > 0.0 { size.sqrt().recip() } else { 1.0 }).collect();
+    for k in 0..m {
+        let largest = (0..n).map(|j| (matrix[(n + k, j)] * unit[j]).abs()).fold(0.0, f64::max);
+        unit.push(if largest > 0.0 && largest.is_finite() { largest.recip() } else { 1.0 });
+    }
+    for row in 0..n + m {
+        right[row] *= unit[row];
+        for column in 0..n + m {
+            matrix[(row, column)] *= unit[row] * unit[column];
+        }
+    }
+    for k in 0..n {
+        matrix[(k, k)] += if size[k] > 0.0 { PROXIMAL } else { 1.0 };
+    }
+    for k in n..n + m {
+        matrix[(k, k)] -= DUAL;
+    }
+    unit
+}

@@ -1,0 +1,258 @@
+//! Following a valley outwards.
+
+use super::floor::{Floor, settle};
+use crate::model::{Meta, Model};
+
+/// Doublings of the distance: 2^100 sizes are beyond anything a model means.
+const DOUBLINGS: i32 = 100;
+/// Doublings that must go well before the model may end in an overflow.
+const ENOUGH: i32 = 24;
+/// The first step, in sizes of the variable.
+const FIRST: f64 = 0.25;
+/// Halvings and doublings of the first step in which an asymptote must have risen on the other side.
+const BACK: std::ops::Range<i32> = -6..40;
+/// Decades towards zero, down from the largest numbers there are.
+const DECADES: i32 = 310;
+/// Halvings between a place with a value and one without.
+const BISECTIONS: usize = 60;
+/// Roundings a value may hold, in units of its own size.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+/// Last digits by which a place is moved to see what rounding makes of a value.
+const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
+
+/// A stationary point and what is known about it.
+pub struct Site<'a> {
+    /// The model.
+    pub model: &'a dyn Model,
+    /// The point, length n.
+    pub x: &'a [f64],
+    /// The variables' sizes there, length n.
+    pub sizes: &'a [f64],
+    /// Variables that may move.
+    pub free: &'a [usize],
+    /// Rows that hold, with the limit they are held to.
+    pub held: &'a [(usize, f64)],
+    /// Row multipliers, length m.
+    pub multipliers: &'a [f64],
+    /// Whether a place meets bounds and rows.
+    pub is_feasible: &'a dyn Fn(&[f64]) -> bool,
+}
+
+impl Site<'_> {
+    pub(super) fn meta(&self) -> &Meta {
+        self.model.meta()
+    }
+}
+
+/// The valley about a site.
+pub struct Valley<'a> {
+    site: Site<'a>,
+}
+
+/// A value with what rounding may make of it.
+#[derive(Clone, Copy)]
+struct Height {
+    value: f64,
+    noise: f64,
+}
+
+/// Which variable is moved, its first step, and how the others go with it.
+struct Lead {
+    pivot: usize,
+    step: f64,
+    others: Vec<(usize, f64)>,
+}
+
+impl Lead {
+    /// `None` where nothing moves, or the variable that moves most has a bound ahead.
+    fn new(site: &Site<'_>, direction: &[f64]) -> Option<Lead> {
+        let share = |j: usize| (direction[j] / site.sizes[j]).abs();
+        let pivot = (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+        let (way, meta) = (direction[pivot], site.meta());
+        let open = if way > 0.0 { meta.upper[pivot] == f64::INFINITY } else { meta.lower[pivot] == f64::NEG_INFINITY };
+        if !open || way == 0.0 || !way.is_finite() {
+            return None;
+        }
+        let others = direction.iter().enumerate().filter(|&(j, v)| j != pivot && *v != 0.0).map(|(j, v)| (j, v / way));
+        Some(Lead { pivot, step: way.signum() * FIRST * site.sizes[pivot], others: others.collect() })
+    }
+}
+
+impl Height {
+    fn rises_above(self, base: Height) -> bool {
+        self.value > base.value + 4.0 * (base.noise + self.noise)
+    }
+}
+
+impl<'a> Valley<'a> {
+    /// The valley about a site.
+    pub fn new(site: Site<'a>) -> Self {
+        Valley { site }
+    }
+
+    /// Whether, going on for ever in this direction (length n; the variable that moves most is led, the others follow the floor), the
+    /// objective never rises, and falls: either on that way, or, where it is level to the last digit, on the way that leads here
+    /// from the other side. (A function that is level along a half-line and rises on the other one is level for rounding alone: it
+    /// nears an asymptote. One that is piecewise has its pieces as rows here, and is judged feasible or not.)
+    pub fn runs_off(&self, direction: &[f64]) -> bool {
+        let Some(lead) = Lead::new(&self.site, direction) else { return false };
+        let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
+        let Some((here, base)) = self.place(&lead, self.site.x[lead.pivot], &start) else { return false };
+        match self.outwards(&lead, here.clone(), base) {
+            Some(fall) if fall > 0.0 => true,
+            Some(_) => self.rises_back(&lead, here, base),
+            None => false,
+        }
+    }
+
+    /// By how much the objective falls on the way outwards, beyond rounding; `None` where it rises or ends at a limit.
+    fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<f64> {
+        let (mut last, origin) = (base, floor.x[lead.pivot]);
+        for doubling in 0..DOUBLINGS {
+            let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
+                if doubling >= ENOUGH { break } else { return None }
+            };
+            if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
+                return None;
+            }
+            if height.value < last.value {
+                last = height;
+            }
+            floor = settled;
+        }
+        Some((base.value - last.value - base.noise - last.noise).max(0.0))
+    }
+
+    /// Whether the objective rises, beyond rounding, on the way back: by growing steps, or, where numbers are large, in decades
+    /// towards zero. Where the model's values end on that way, the last place before is looked for.
+    fn rises_back(&self, lead: &Lead, here: Floor, base: Height) -> bool {
+        let origin = here.x[lead.pivot];
+        let steps = BACK.map(|doubling| origin - lead.step * f64::from(doubling).exp2());
+        let decades = (1..DECADES).map(|decade| origin * 10f64.powi(-decade));
+        let towards_zero = origin * lead.step > 0.0;
+        self.rises_along(lead, steps, &here, base) || (towards_zero && self.rises_along(lead, decades, &here, base))
+    }
+
+    fn rises_along(&self, lead: &Lead, ways: impl Iterator<Item = f64>, here: &Floor, base: Height) -> bool {
+        let mut floor = here.clone();
+        for target in ways {
+            match self.place(lead, target, &floor) {
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, _)) => floor = settled,
+                None => return self.rises_before(lead, target, floor, base),
+            }
+        }
+        false
+    }
+
+    /// The same between a place that has a value and one that has none.
+    fn rises_before(&self, lead: &Lead, mut without: f64, mut floor: Floor, base: Height) -> bool {
+        for _ in 0..BISECTIONS {
+            let target = 0.5 * (floor.x[lead.pivot] + without);
+            match self.place(lead, target, &floor) {
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, _)) => floor = settled,
+                None => without = target,
+            }
+        }
+        false
+    }
+
+    /// The floor and its height where the pivot stands there; the others begin where the direction leads them.
+    fn place(&self, lead: &Lead, target: f64, from: &Floor) -> Option<(Floor, Height)> {
+        let (meta, way) = (self.site.meta(), target - from.x[lead.pivot]);
+        let mut next = from.clone();
+        for &(j, share) in &lead.others {
+            next.x[j] = (next.x[j] + way * share).clamp(meta.lower[j], meta.upper[j]);
+        }
+        next.x[lead.pivot] = target;
+        let floor = settle(&self.site, lead.pivot, next)?;
+        let height = self.height(&floor)?;
+        Some((floor, height))
+    }
+
+    /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
+    fn height(&self, floor: &Floor) -> Option<Height> {
+        let value = self.value(&floor.x)?;
+        let beside = |digits: f64| {
+            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * share(j) * f64::EPSILON);
+            let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
+            self.site.model.objective(&x).map_or(0.0, |value| value.abs())
+        };
+        let objective = self.site.model.objective(&floor.x).ok()?.abs();
+        let noise = DIGITS.into_iter().map(|digits| (beside(digits) - objective).abs()).fold(0.0, f64::max);
+        Some(Height { value, noise: noise + ROUNDINGS * objective })
+    }
+
+    fn value(&self, x: &[f64]) -> Option<f64> {
+        let mut rows = vec![0.0; self.site.meta().rows()];
+        self.site.model.constraints(x, &mut rows).ok()?;
+        let bought = |&(i, limit): &(usize, f64)| (self.site.multipliers[i] * (rows[i] - limit)).max(0.0);
+        let objective = self.site.model.objective(x).ok()?;
+        Some(objective + self.site.held.iter().map(bought).sum::<f64>())
+    }
+}
+
+/// A fixed number in [−1, 1) without a pattern: variables moved alike would keep their differences.
+fn share(j: usize) -> f64 {
+    let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::model::sample::Sample;
+
+    /// Every row held to its lower limit.
+    fn runs_off(model: &Sample, x: &[f64], multipliers: &[f64], pivot: usize, way: f64) -> bool {
+        let mut direction = vec![0.0; x.len()];
+        direction[pivot] = way;
+        let meta = model.meta();
+        let sizes: Vec<f64> = x.iter().map(|x| x.abs().max(1.0)).collect();
+        let free: Vec<usize> = (0..x.len()).collect();
+        let held: Vec<(usize, f64)> = meta.row_lower.iter().copied().enumerate().collect();
+        let is_feasible = |_: &[f64]| true;
+        let site = Site { model, x, sizes: &sizes, free: &free, held: &held, multipliers, is_feasible: &is_feasible };
+        Valley::new(site).runs_off(&direction)
+    }
+
+    #[test]
+    fn tails_run_off_wherever_the_origin_lies() {
+        for shift in [0.0, 4.0, -1e3] {
+            let bell = Sample::new(&[1.0, 1.0], move |x| (-(x[0] - shift) * (x[0] - shift)).exp() + x[1] * x[1] - 1.0);
+            assert!(runs_off(&bell, &[shift + 6.2, 0.0], &[], 0, 1.0), "{shift}");
+            assert!(!runs_off(&bell, &[shift + 6.2, 0.0], &[], 0, -1.0), "{shift}: over the top");
+            let asymptote = Sample::new(&[1.0], move |x| ((x[0] - shift) * (x[0] - shift) + 1.0).sqrt() - (x[0] - shift));
+            assert!(runs_off(&asymptote, &[shift + 7.06e7], &[], 0, 1.0), "{shift}");
+        }
+    }
+
+    #[test]
+    fn bent_valleys_are_followed() {
+        for (shift, unit) in [(0.0, 1.0), (3.0, 1.0), (0.0, 1e-6), (-2.0, 1e6)] {
+            let f = move |x: &[crate::model::sample::Value]| {
+                let (a, b) = (x[0] - shift, x[1] * unit + shift);
+                a * a + (a * b - 1.0).powi(2)
+            };
+            let valley = Sample::new(&[1.0, 1.0], f);
+            let x = [1e-3 + shift, (1e3 - shift) / unit];
+            assert!(runs_off(&valley, &x, &[], 1, 1.0), "{shift} {unit}");
+        }
+        // x² with x·y = 1: y = 1e9, multiplier −2x²·x.
+        let row = Sample::new(&[1.0, 1.0], |x| x[0] * x[0]).row(1.0, f64::INFINITY, |x| x[0] * x[1]);
+        assert!(runs_off(&row, &[1e-3, 1e3], &[-2e-6], 1, 1.0));
+    }
+
+    #[test]
+    fn what_is_attained_stays() {
+        let level = Sample::new(&[1.0, 1.0], |x| x[1] * x[1]);
+        assert!(!runs_off(&level, &[1e6, 0.0], &[], 0, 1.0));
+        let far = Sample::new(&[1.0], |x| (-x[0]).exp() + x[0] * x[0] * 1e-20);
+        assert!(!runs_off(&far, &[45.0], &[], 0, 1.0));
+        let line = Sample::new(&[1.0, 1.0], |x| (x[0] - x[1]).powi(2));
+        assert!(!runs_off(&line, &[5.0, 5.0], &[], 0, 1.0));
+    }
+}

@@ -1,0 +1,31 @@
+//! A sample of the problems whose nature is known by construction; `examples/constructed.rs` judges any number of them.
+
+#[path = "support/constructed/mod.rs"]
+mod constructed;
+
+use constructed::{Fault, Nature, Tally, construct};
+
+#[test]
+fn no_point_is_certified_that_is_no_minimum_and_strict_minima_are() {
+    let mut tally = Tally::default();
+    for seed in 1..=800 {
+        tally.add(&construct(seed, 3));
+    }
+    assert!(tally.calls > 2500 && tally.minima.0 > 200 && tally.compared > 600);
+    assert_eq!(tally.count(Fault::Error), 0);
+    for fault in [Fault::WronglyCertified, Fault::MinimumNotCertified, Fault::TestsDisagree] {
+        let found: Vec<_> = tally.faults.iter().filter(|found| found.0 == fault).collect();
+        assert!(found.is_empty(), "{fault:?}: {found:?}");
+    }
+}
+
+#[test]
+fn every_nature_is_among_them() {
+    let natures: Vec<Nature> = (1..=800).map(|seed| construct(seed, 0).nature).collect();
+    for nature in [Nature::StrictMinimum, Nature::DegenerateMinimum, Nature::DegenerateNoMinimum, Nature::Saddle] {
+        assert!(natures.contains(&nature), "{nature:?}");
+    }
+    assert!((1..=5).all(|face| natures.contains(&Nature::FallsOnFace(face))));
+    assert!((0..8).all(|power| natures.contains(&Nature::Infeasible(-power))));
+    assert!(natures.contains(&Nature::Maximum) && natures.contains(&Nature::Unbounded));
+}
