@@ -205,7 +205,9 @@ pub(super) fn probe(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
             answers[k].feasible = false;
             keep_better(ledger, &mut answers[k], next, "found from another start");
         } else {
-            add_effort(&mut answers[k], &next);
+            // The iterations shown are those that led to the answer.
+            answers[k].solution.evaluations += next.solution.evaluations;
+            answers[k].solution.seconds += next.solution.seconds;
         }
     }
 }
