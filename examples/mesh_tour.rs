@@ -22,7 +22,7 @@ fn tour(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     let mesh = folder.join(format!("{name}.obj"));
     new_file(name, &mesh)?;
     let problem = folder.join(name);
-    let report = ribs_folder(&Source { path: mesh, weld: None }, 10.0, &ribs::Options::default(), &problem)?;
+    let report = ribs_folder(&Source { path: mesh, ..Source::default() }, 10.0, &ribs::Options::default(), &problem)?;
     println!("{name}: {} lines, {} ribs, {} sections", report.trace.lines, report.problem.ribs, report.problem.sections);
     let geometry = read_geometry(std::fs::File::open(problem.join("geometry.csv"))?)?;
     let ring = |h: f64| vec![vec![[-0.06, -h / 2.0], [0.06, -h / 2.0], [0.06, h / 2.0], [-0.06, h / 2.0]]];

@@ -468,7 +468,7 @@ fn a_name_of_64_kilobytes_is_no_panic() {
     let place = Place::new(&[("n.toml", &file)]);
     for command in ["solve n.toml", "bounds n.toml"] {
         let (code, out, err) = place.said(command);
-        assert!(code == 0 && !err.contains("panicked"), "{command}: {err}");
+        assert!(code <= 1 && !err.contains("panicked"), "{command}: {err}");
         assert!(out.lines().all(|line| line.chars().count() < 1000), "{command}");
     }
 }

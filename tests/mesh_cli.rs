@@ -90,7 +90,7 @@ fn check_names_every_defect_with_its_faces() {
 fn triangles_are_told_apart() {
     let triangles = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
     insta::assert_snapshot!(said(&[("t.obj", triangles.into())], "mesh check t.obj"));
-    let refused = said(&[("t.obj", triangles.into())], "mesh trace t.obj -o lines.obj");
+    let refused = said(&[("t.obj", triangles.into())], "mesh smooth t.obj -o s.obj");
     assert!(refused.starts_with("exit code 2") && refused.contains("triangulated"), "{refused}");
 }
 

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::start::MovedStart;
 use crate::backends::{Iteration, Solution};
 use crate::certificate::{Certificate, Scope};
-use crate::model::{Class, Limit, Model, Substitution};
+use crate::model::{Class, Limit, Model, Own, Substitution};
 use crate::problem::Settings;
 
 /// What is to be solved.
@@ -116,6 +116,19 @@ pub struct Conflict {
     pub alternatives: Vec<LimitMove>,
     /// No part of the set conflicts by itself (proved, for linear, geometric and convex problems).
     pub minimal: bool,
+}
+
+impl Conflict {
+    /// Leaves out auxiliary rows and variables: what they say, the user's rows say.
+    pub(super) fn keep_own(&mut self, own: Own) {
+        self.violated_rows.retain(|&(row, _)| row < own.rows);
+        self.rows.retain(|&row| row < own.rows);
+        self.bounds.retain(|&(j, _)| j < own.variables);
+        self.alternatives.retain(|alternative| match alternative.limit {
+            Limit::Row(row, _) => row < own.rows,
+            Limit::Bound(j, _) => j < own.variables,
+        });
+    }
 }
 
 /// A limit moved on its own, with a feasible point to show that it is enough.

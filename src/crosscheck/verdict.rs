@@ -63,8 +63,9 @@ pub(super) fn infeasible(
     session: &Session<'_>,
     answers: Vec<Answer>,
     x: Vec<f64>,
-    (conflict, proved): (Conflict, bool),
+    (mut conflict, proved): (Conflict, bool),
 ) -> Outcome {
+    conflict.keep_own(session.task.model.own());
     let mut outcome = at(session, answers, x, Status::Infeasible);
     outcome.scope = if proved { Scope::Global } else { Scope::Local };
     words::infeasible(session, &mut outcome, &conflict);

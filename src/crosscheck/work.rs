@@ -30,9 +30,9 @@ pub(super) fn first_turn(cost: f64) -> f64 {
     (10.0 * PER_SECOND).max(2000.0 * cost)
 }
 
-/// What the others may spend at first, while nothing is certified: four times what the cheapest has, at least two seconds' worth.
+/// What the others may spend at first, while nothing is certified: as much as the cheapest has, at least two seconds' worth.
 pub(super) fn later_turn(spent: f64) -> f64 {
-    (4.0 * spent).max(2.0 * PER_SECOND)
+    spent.max(2.0 * PER_SECOND)
 }
 
 /// One run of the probe at the most.
@@ -45,14 +45,14 @@ pub(super) fn further_run(first: f64) -> f64 {
     first.clamp(PER_SECOND, 10.0 * PER_SECOND)
 }
 
-/// All solves of the elastic phase together: four times the cheapest first run, and a thousand evaluations at least.
+/// All solves of the elastic phase together: twice the cheapest first run, and a thousand evaluations at least.
 pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
-    (4.0 * first).clamp(0.5 * PER_SECOND, 20.0 * PER_SECOND).max(1000.0 * cost)
+    (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(1000.0 * cost)
 }
 
 /// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves.
 pub(super) fn explanation(first: f64, cost: f64) -> f64 {
-    first.clamp(0.5 * PER_SECOND, 5.0 * PER_SECOND).max(1000.0 * cost)
+    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(1000.0 * cost)
 }
 
 /// Evaluations below which a run is not worth beginning.

@@ -39,6 +39,17 @@ impl Surface {
         self.tree.nearest_neighbor((*point).into()).map(|piece| closest_on_triangle(point, &piece.corners))
     }
 
+    /// One more triangle.
+    pub fn insert(&mut self, corners: [Vector; 3]) {
+        self.tree.insert(Piece { corners });
+    }
+
+    /// The triangles (of segments: with a corner twice) whose boxes meet this one.
+    pub fn pieces_in(&self, low: &Vector, high: &Vector) -> impl Iterator<Item = &[Vector; 3]> {
+        let window = AABB::from_corners((*low).into(), (*high).into());
+        self.tree.locate_in_envelope_intersecting(window).map(|piece| &piece.corners)
+    }
+
     /// The distance to the nearest point; infinite where there is nothing.
     pub fn distance(&self, point: &Vector) -> f64 {
         self.nearest(point).map_or(f64::INFINITY, |nearest| (nearest - point).norm())
@@ -61,7 +72,7 @@ impl PointDistance for Piece {
 }
 
 /// The nearest point of triangle abc, by regions (Ericson, Real-Time Collision Detection, 5.1.5).
-fn closest_on_triangle(p: &Vector, [a, b, c]: &[Vector; 3]) -> Vector {
+pub(super) fn closest_on_triangle(p: &Vector, [a, b, c]: &[Vector; 3]) -> Vector {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
     if ab.cross(&ac).norm_squared() == 0.0 {
@@ -97,7 +108,8 @@ fn closest_on_triangle(p: &Vector, [a, b, c]: &[Vector; 3]) -> Vector {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
-fn on_segment(p: &Vector, a: &Vector, b: &Vector) -> Vector {
+/// The nearest point of a segment.
+pub(super) fn on_segment(p: &Vector, a: &Vector, b: &Vector) -> Vector {
     let along = b - a;
     let t = (p - a).dot(&along) / along.norm_squared();
     if t.is_nan() || t <= 0.0 {

@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, RTree};
 use serde::{Serialize, Serializer};
 
+use super::closest::on_segment;
 use super::edge_list::{EdgeUse, by_edge};
 use super::{PolygonMesh, Vector};
 
@@ -22,6 +25,7 @@ pub enum DefectKind {
     InconsistentOrientation,
     BrokenFan,
     RibOffTheEdges,
+    HangingNode,
 }
 
 /// One defect and where it is. Serialised with numbers from 1.
@@ -62,11 +66,11 @@ impl fmt::Display for Defect {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let (faces, vertices) = (list("face", &self.faces), list("vertex", &self.vertices));
         match self.kind {
-            DefectKind::Empty => write!(out, "there are no faces; export the surface as quads"),
+            DefectKind::Empty => write!(out, "there are no faces, and no lines that carry ribs"),
             DefectKind::Triangulated => write!(
                 out,
-                "every face is a triangle: the mesh has been triangulated, and rib lines cannot be told from diagonals; \
-                 export the quads, or join the triangles first (Blender: Face > Tris to Quads)"
+                "every face is a triangle, and this takes quads; if the mesh has been triangulated, export the quads, or join the \
+                 triangles first (Blender: Face > Tris to Quads)"
             ),
             DefectKind::NotAQuad => write!(out, "{faces} ({vertices}) is no quad"),
             DefectKind::DuplicateVertices => {
@@ -80,9 +84,23 @@ impl fmt::Display for Defect {
             DefectKind::InconsistentOrientation => {
                 write!(out, "{faces} run along the edge of {vertices} in the same direction; turn one of them over")
             }
+            DefectKind::BrokenFan if self.faces.is_empty() => {
+                write!(out, "at {vertices} faces meet in separate fans; give each fan a vertex of its own")
+            }
             DefectKind::BrokenFan => {
                 write!(out, "at {vertices} {faces} meet in separate fans; give each fan a vertex of its own")
             }
+            DefectKind::HangingNode => match self.vertices[..] {
+                [v, a, b] => write!(
+                    out,
+                    "vertex {} hangs on the edge {} {} of {faces}: it lies there, but is no corner of that face; \
+                     make it one, or divide the face",
+                    v + 1,
+                    a + 1,
+                    b + 1
+                ),
+                _ => write!(out, "{vertices} hang on an edge of {faces}"),
+            },
             DefectKind::RibOffTheEdges => write!(out, "the rib of {vertices} is no edge of any face"),
         }
     }
@@ -111,24 +129,82 @@ pub(super) fn of_faces(mesh: &PolygonMesh) -> Vec<Defect> {
         return vec![Defect { kind: DefectKind::Triangulated, faces: Vec::new(), vertices: Vec::new() }];
     }
     let tiny = 1e-12 * diagonal(&mesh.vertices);
-    (0..mesh.face_count()).filter_map(|f| of_face(mesh, f, tiny)).collect()
+    let quad = |f: usize| mesh.face(f).len() == 4;
+    let not_a_quad = |f: usize| of_one(DefectKind::NotAQuad, f, mesh.face(f));
+    (0..mesh.face_count()).filter_map(|f| if quad(f) { of_face(mesh, f, tiny) } else { Some(not_a_quad(f)) }).collect()
 }
 
+fn of_one(kind: DefectKind, f: usize, vertices: &[u32]) -> Defect {
+    Defect { kind, faces: vec![f as u32], vertices: vertices.to_vec() }
+}
+
+/// Edges without length, faces without area; of any polygon.
 fn of_face(mesh: &PolygonMesh, f: usize, tiny: f64) -> Option<Defect> {
     let face = mesh.face(f);
-    let defect = |kind, vertices: &[u32]| Some(Defect { kind, faces: vec![f as u32], vertices: vertices.to_vec() });
-    if face.len() != 4 {
-        return defect(DefectKind::NotAQuad, face);
+    let count = face.len();
+    let at = |k: usize| mesh.vertices[face[k % count] as usize];
+    let longest = (0..count).map(|k| (at(k + 1) - at(k)).norm()).fold(0.0, f64::max);
+    if let Some(k) = (0..count).find(|&k| (at(k + 1) - at(k)).norm() <= tiny) {
+        return Some(of_one(DefectKind::ZeroEdge, f, &[face[k], face[(k + 1) % count]]));
     }
-    let at = |k: usize| mesh.vertices[face[k % 4] as usize];
-    let longest = (0..4).map(|k| (at(k + 1) - at(k)).norm()).fold(0.0, f64::max);
-    if let Some(k) = (0..4).find(|&k| (at(k + 1) - at(k)).norm() <= tiny) {
-        return defect(DefectKind::ZeroEdge, &[face[k], face[(k + 1) % 4]]);
+    (mesh.vector_area(f).norm() <= 1e-12 * longest * longest).then(|| of_one(DefectKind::ZeroArea, f, face))
+}
+
+/// What keeps edges from being a network of ribs, of any polygon mesh or of lines alone. Edges of more than two faces and separate
+/// fans do not: lines end there.
+pub(super) fn of_network(mesh: &PolygonMesh, uses: &[EdgeUse]) -> Vec<Defect> {
+    if mesh.face_count() == 0 {
+        return of_lines(mesh);
     }
-    if mesh.vector_area(f).norm() <= 1e-12 * longest * longest {
-        return defect(DefectKind::ZeroArea, face);
+    let tiny = 1e-12 * diagonal(&mesh.vertices);
+    let mut found: Vec<Defect> = (0..mesh.face_count()).filter_map(|f| of_face(mesh, f, tiny)).collect();
+    found.extend(duplicates(mesh));
+    found.extend(of_edges(uses).into_iter().filter(|defect| defect.kind == DefectKind::InconsistentOrientation));
+    if found.is_empty() {
+        found.extend(hanging(mesh, uses));
     }
-    None
+    found
+}
+
+fn of_lines(mesh: &PolygonMesh) -> Vec<Defect> {
+    if mesh.ribs.is_empty() {
+        return vec![Defect { kind: DefectKind::Empty, faces: Vec::new(), vertices: Vec::new() }];
+    }
+    Vec::new()
+}
+
+/// A vertex counts as lying on an edge within this part of its length: coordinates written with five digits.
+const ON_EDGE: f64 = 1e-4;
+
+/// Boundary vertices that lie inside the boundary edges of other faces.
+pub(super) fn hanging(mesh: &PolygonMesh, uses: &[EdgeUse]) -> Vec<Defect> {
+    let rim: Vec<&EdgeUse> = by_edge(uses).filter(|uses| uses.len() == 1).map(|uses| &uses[0]).collect();
+    let mut ends: Vec<u32> = rim.iter().flat_map(|side| side.edge).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let place = |v: u32| mesh.vertices[v as usize];
+    let tree = RTree::bulk_load(ends.iter().map(|&v| GeomWithData::new(<[f64; 3]>::from(place(v)), v)).collect());
+    let mut found = Vec::new();
+    for side in rim {
+        let [a, b] = side.edge.map(place);
+        let reach = ON_EDGE * (b - a).norm();
+        let window = AABB::from_corners((a.inf(&b) - Vector::repeat(reach)).into(), (a.sup(&b) + Vector::repeat(reach)).into());
+        let is_on = |v: u32| {
+            let p = place(v);
+            let apart = |q: Vector| (q - p).norm();
+            apart(on_segment(&p, &a, &b)) <= reach && apart(a) > reach && apart(b) > reach
+        };
+        let on = tree.locate_in_envelope(window).map(|near| near.data).filter(|&v| is_on(v));
+        let mut on: Vec<u32> = on.collect();
+        on.sort_unstable();
+        let defect = |v: u32| Defect {
+            kind: DefectKind::HangingNode,
+            faces: vec![side.face],
+            vertices: vec![v, side.edge[0], side.edge[1]],
+        };
+        found.extend(on.into_iter().map(defect));
+    }
+    found
 }
 
 /// Vertices at exactly the same place, group by group. Vertices without faces do not count.

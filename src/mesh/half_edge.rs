@@ -47,6 +47,7 @@ impl QuadMesh {
         if !found.is_empty() {
             return Err(Defects(found));
         }
+        let hanging = defects::hanging(&mesh, &uses);
         let faces = mesh.faces().filter_map(|face| face.try_into().ok()).collect();
         let mut quads = QuadMesh {
             positions: mesh.vertices,
@@ -60,7 +61,8 @@ impl QuadMesh {
             group_of: mesh.group_of,
         };
         quads.link(&uses);
-        let mut found = quads.broken_fans();
+        let mut found = hanging;
+        found.extend(quads.broken_fans());
         found.extend(quads.flag(&mesh.ribs, &uses));
         if found.is_empty() { Ok(quads) } else { Err(Defects(found)) }
     }

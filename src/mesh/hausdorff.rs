@@ -1,5 +1,8 @@
 //! How far two surfaces lie apart.
 
+use std::collections::HashSet;
+
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::closest::Surface;
@@ -25,17 +28,36 @@ pub struct Hausdorff {
 /// assert!(apart.distance == 1.0 && apart.from_first == 1.0 && apart.from_second < 1e-15);
 /// ```
 pub fn hausdorff(first: &PolygonMesh, second: &PolygonMesh) -> Hausdorff {
-    let one_way = |from: &PolygonMesh, to: &PolygonMesh| {
-        let surface = Surface::of_faces(to);
-        samples(from).map(|point| surface.distance(&point)).fold(0.0, f64::max)
-    };
-    let (from_first, from_second) = (one_way(first, second), one_way(second, first));
+    let (triangles, others) = (triangles(first), triangles(second));
+    let (from_first, from_second) = (one_way(&triangles, &others, second), one_way(&others, &triangles, first));
     Hausdorff { from_first, from_second, distance: from_first.max(from_second) }
 }
 
-fn samples(mesh: &PolygonMesh) -> impl Iterator<Item = Vector> {
-    mesh.fans().flat_map(|(_, triangle)| {
-        let [a, b, c] = triangle.map(|v| mesh.vertices[v as usize]);
-        [a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0]
-    })
+type Triangle = [Vector; 3];
+
+fn triangles(mesh: &PolygonMesh) -> Vec<Triangle> {
+    mesh.fans().map(|(_, triangle)| triangle.map(|v| mesh.vertices[v as usize])).collect()
+}
+
+/// Triangles both surfaces have are no distance apart; of the others the samples are looked up.
+fn one_way(from: &[Triangle], to: &[Triangle], surface: &PolygonMesh) -> f64 {
+    let common: HashSet<[[u64; 3]; 3]> = to.iter().map(key).collect();
+    let own: Vec<&Triangle> = from.iter().filter(|triangle| !common.contains(&key(triangle))).collect();
+    if own.is_empty() {
+        return 0.0;
+    }
+    let surface = Surface::of_faces(surface);
+    let farthest = |triangle: &&Triangle| samples(triangle).map(|point| surface.distance(&point)).into_iter().fold(0.0, f64::max);
+    own.par_iter().map(farthest).reduce(|| 0.0, f64::max)
+}
+
+/// The corners' bits, whichever comes first.
+fn key(triangle: &Triangle) -> [[u64; 3]; 3] {
+    let mut corners = triangle.map(|corner| [corner.x, corner.y, corner.z].map(|c| (c + 0.0).to_bits()));
+    corners.sort_unstable();
+    corners
+}
+
+fn samples([a, b, c]: &Triangle) -> [Vector; 7] {
+    [*a, *b, *c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0]
 }

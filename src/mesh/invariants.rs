@@ -1,9 +1,13 @@
-//! The numbers of a clean quad mesh that stages must keep or may be checked by.
+//! The numbers of a mesh that stages must keep or may be checked by.
 
 use serde::Serialize;
 
 use super::quality::{self, Range};
 use super::{QuadMesh, boundary};
+
+mod polygons;
+
+pub use polygons::measure_any;
 
 /// Counts, topology and quality of a mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -18,6 +22,12 @@ pub struct Invariants {
     pub rib_edges: usize,
     /// Faces.
     pub faces: usize,
+    /// Faces of three, of four and of more corners.
+    pub triangles: usize,
+    /// See `triangles`.
+    pub quads: usize,
+    /// See `triangles`.
+    pub larger: usize,
     /// Connected pieces.
     pub components: usize,
     /// χ = V − E + F.
@@ -30,7 +40,9 @@ pub struct Invariants {
     pub irregular_boundary: Vec<[u32; 2]>,
     /// Σ interior (4 − valence) + Σ boundary (3 − valence).
     pub valence_sum: i64,
-    /// Whether that sum is 4χ, as it must be.
+    /// Σ faces (corners − 4): 0 for quads.
+    pub corner_sum: i64,
+    /// Whether the valences' sum is 4χ + `corner_sum`, as it must be.
     pub valence_identity: bool,
     /// Distance of diagonals over their length, per face; 0 is planar.
     pub planarity: Range,
@@ -38,7 +50,7 @@ pub struct Invariants {
     pub angles: Range,
     /// Edge lengths.
     pub edge_lengths: Range,
-    /// Area.
+    /// Area: of quads that of their bilinear patches.
     pub area: f64,
 }
 
@@ -65,6 +77,10 @@ pub fn measure(mesh: &QuadMesh) -> Invariants {
         edges: mesh.edge_count(),
         rib_edges: (0..mesh.edge_count() as u32).filter(|&e| mesh.is_rib(e)).count(),
         faces: mesh.face_count(),
+        triangles: 0,
+        quads: mesh.face_count(),
+        larger: 0,
+        corner_sum: 0,
         components: components(mesh),
         euler_characteristic: euler,
         boundary_loops: boundary::loops(mesh).iter().map(Vec::len).collect(),

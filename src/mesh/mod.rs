@@ -1,8 +1,8 @@
-//! Quad rib meshes: read, check, reconstruct, smooth, trace, slice; from rib lines to a problem folder and on to solids
+//! Rib meshes and networks: read, check, reconstruct, smooth, trace, slice; from rib lines to a problem folder and on to solids
 //! (chapter 3 of the note, as FORMULAS §3 corrects it).
 //!
-//! In reading order: [`PolygonMesh`] is what a file holds; [`QuadMesh`] is that, proved free of defects; the stages take
-//! the one or the other. Every stage is deterministic and reports its invariants as a serialisable value.
+//! In reading order: [`PolygonMesh`] is what a file holds; [`QuadMesh`] is that, proved to be a quad mesh free of defects;
+//! [`graph::Graph`] the rib edges of any other; the stages take one or another. Every stage is deterministic and reports its invariants as a serialisable value.
 //! In messages, tables and reports faces and vertices are counted from 1, as OBJ counts them; in the code from 0.
 
 pub mod boundary;
@@ -13,6 +13,7 @@ pub mod edge_list;
 pub mod features;
 pub mod formats;
 pub mod generate;
+pub mod graph;
 mod half_edge;
 pub mod hausdorff;
 pub mod invariants;

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
-use super::stations::{Frame, StationLine};
+use super::stations::{Frame, Frames, StationLine};
 use super::{NONE, Vector};
 
 /// Where a rib lies. Its solid is straight, its ends parallel, its axes the frame.
@@ -105,7 +105,12 @@ impl Builder {
         for (k, pair) in line.stations.windows(2).enumerate() {
             let name = format!("{}_r{}", line.name, k + 1);
             let chord = pair[1].position - pair[0].position;
-            let frame = Frame::new(chord, pair[0].frame.z + pair[1].frame.z);
+            let between = Frame::new(chord, pair[0].frame.z + pair[1].frame.z);
+            let frame = match line.frames {
+                Frames::Smooth => between,
+                Frames::Faces => between.or_else(|| Frame::upright(chord)),
+                Frames::Upright => Frame::upright(chord),
+            };
             let frame = frame.ok_or_else(|| NetworkError::NoFrame { rib: name.clone() })?;
             let geometry = RibGeometry {
                 name,

@@ -1,4 +1,5 @@
-//! Pictures of rib networks: SVG, isometric; height of section as width of line, utilisation as colour.
+//! Pictures of rib networks: SVG, isometric; height of section as width of line, utilisation as colour. Where all ribs are used alike, as where
+//! every line governs, colour shows the area of their sections instead.
 
 use std::fmt::Write;
 
@@ -12,6 +13,8 @@ pub struct Stroke {
     pub ends: [Vector; 2],
     /// Section heights at the ends.
     pub heights: [f64; 2],
+    /// The mean area of its sections.
+    pub area: f64,
     /// 0 to 1, or `None`: grey.
     pub utilisation: Option<f64>,
     /// What a viewer shows under the pointer.
@@ -30,7 +33,7 @@ const WIDEST_PART: f64 = 0.3;
 ///
 /// ```
 /// use ribopt::mesh::{Vector, plot::{Stroke, svg}};
-/// let rib = Stroke { ends: [Vector::zeros(), Vector::x()], heights: [0.2, 0.3], utilisation: Some(0.9), label: "L1_r1".into() };
+/// let rib = Stroke { ends: [Vector::zeros(), Vector::x()], heights: [0.2, 0.3], area: 0.05, utilisation: Some(0.9), label: "L1_r1".into() };
 /// assert!(svg(&[rib], "One rib").contains("<title>L1_r1</title>"));
 /// ```
 pub fn svg(strokes: &[Stroke], title: &str) -> String {
@@ -38,6 +41,7 @@ pub fn svg(strokes: &[Stroke], title: &str) -> String {
     let tallest = strokes.iter().flat_map(|stroke| stroke.heights).filter(|h| h.is_finite()).fold(0.0, f64::max);
     let widest = WIDEST.min(WIDEST_PART * view.mean_length(strokes));
     let thickness = if tallest > 0.0 { widest / tallest } else { 1.0 };
+    let shown = Shown::of(strokes);
     let mut order: Vec<&Stroke> = strokes.iter().collect();
     let nearness = |stroke: &Stroke| (stroke.ends[0] + stroke.ends[1]).sum();
     order.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
@@ -50,11 +54,52 @@ pub fn svg(strokes: &[Stroke], title: &str) -> String {
     );
     let _ = writeln!(text, "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>");
     for stroke in order {
-        draw(&mut text, &view, stroke, thickness);
+        draw(&mut text, &view, stroke, thickness, &shown.colour(stroke));
     }
-    legend(&mut text, &view, title, tallest, thickness);
+    legend(&mut text, &view, title, tallest, thickness, &shown);
     text.push_str("</svg>\n");
     text
+}
+
+/// What colours show.
+enum Shown {
+    Utilisation,
+    /// Areas between these two.
+    Area([f64; 2]),
+}
+
+/// Utilisations within this range of one another look the same.
+const ALIKE: f64 = 0.05;
+
+impl Shown {
+    fn of(strokes: &[Stroke]) -> Shown {
+        let range = |values: &mut dyn Iterator<Item = f64>| {
+            values
+                .filter(|value| value.is_finite())
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        };
+        let [least, most] = range(&mut strokes.iter().filter_map(|stroke| stroke.utilisation));
+        // Above 1 something is wrong, and red must show it.
+        if most - least > ALIKE || most > 1.0 + 1e-6 {
+            return Shown::Utilisation;
+        }
+        let areas = range(&mut strokes.iter().map(|stroke| stroke.area));
+        if areas[1] > areas[0] * (1.0 + 1e-9) { Shown::Area(areas) } else { Shown::Utilisation }
+    }
+
+    fn colour(&self, stroke: &Stroke) -> String {
+        match self {
+            Shown::Utilisation => stroke.utilisation.map_or("#999999".into(), colour),
+            Shown::Area([low, high]) => colour(((stroke.area - low) / (high - low)).min(1.0)),
+        }
+    }
+
+    fn words(&self) -> String {
+        match self {
+            Shown::Utilisation => "utilisation 0 to 1".into(),
+            Shown::Area([low, high]) => format!("section area {low:.3e} to {high:.3e}; all are used alike"),
+        }
+    }
 }
 
 /// From space to paper.
@@ -98,7 +143,7 @@ fn isometric(p: Vector) -> [f64; 2] {
 }
 
 /// A rib as a quadrilateral, so that tapers show.
-fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64) {
+fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64, colour: &str) {
     let (p, q) = (view.place(stroke.ends[0]), view.place(stroke.ends[1]));
     let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
     let length = dx.hypot(dy).max(1e-9);
@@ -106,7 +151,6 @@ fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64) {
     let (nx, ny) = (-dy / length, dx / length);
     let corner = |at: [f64; 2], by: f64| format!("{:.1},{:.1}", at[0] + nx * by, at[1] + ny * by);
     let corners = [corner(p, half[0]), corner(q, half[1]), corner(q, -half[1]), corner(p, -half[0])].join(" ");
-    let colour = stroke.utilisation.map_or("#999999".into(), colour);
     let label = escape(&stroke.label);
     let _ = writeln!(
         text,
@@ -114,7 +158,7 @@ fn draw(text: &mut String, view: &View, stroke: &Stroke, thickness: f64) {
     );
 }
 
-fn legend(text: &mut String, view: &View, title: &str, tallest: f64, thickness: f64) {
+fn legend(text: &mut String, view: &View, title: &str, tallest: f64, thickness: f64, shown: &Shown) {
     let y = view.height + 12.0;
     let _ = writeln!(text, "<text x=\"{MARGIN}\" y=\"{:.0}\" font-weight=\"bold\">{}</text>", y, escape(title));
     let half = tallest * thickness / 2.0;
@@ -133,11 +177,12 @@ fn legend(text: &mut String, view: &View, title: &str, tallest: f64, thickness: 
         let (x, fill) = (left + 6.0 * f64::from(k), colour((f64::from(k) + 0.5) / 20.0));
         let _ = writeln!(text, "<rect x=\"{x:.0}\" y=\"{:.0}\" width=\"6.5\" height=\"12\" fill=\"{fill}\"/>", middle - 6.0);
     }
-    let _ = writeln!(text, "<text x=\"{:.0}\" y=\"{:.0}\">utilisation 0 to 1</text>", left + 128.0, middle + 5.0);
+    let _ = writeln!(text, "<text x=\"{:.0}\" y=\"{:.0}\">{}</text>", left + 128.0, middle + 5.0, shown.words());
 }
 
 /// Viridis (matplotlib, CC0) from its light end, linear between nine of its colours: what is used fully stands out on white; red above 1.
-fn colour(value: f64) -> String {
+/// Grey where it is no number.
+pub fn shade(value: f64) -> [u8; 3] {
     const STOPS: [[f64; 3]; 9] = [
         [68., 1., 84.],
         [71., 44., 122.],
@@ -150,15 +195,22 @@ fn colour(value: f64) -> String {
         [253., 231., 37.],
     ];
     if value.is_nan() {
-        return "#999999".into();
+        return GREY;
     }
     if value > 1.0 + 1e-6 {
-        return "#d62728".into();
+        return [0xd6, 0x27, 0x28];
     }
     let at = (1.0 - value.clamp(0.0, 1.0)) * 8.0;
     let k = (at as usize).min(7);
     let t = at - k as f64;
-    let [r, g, b] = std::array::from_fn(|c| (STOPS[k][c] * (1.0 - t) + STOPS[k + 1][c] * t).round() as u8);
+    std::array::from_fn(|c| (STOPS[k][c] * (1.0 - t) + STOPS[k + 1][c] * t).round() as u8)
+}
+
+/// What has no utilisation.
+pub const GREY: [u8; 3] = [0x99; 3];
+
+fn colour(value: f64) -> String {
+    let [r, g, b] = shade(value);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 

@@ -13,6 +13,10 @@ pub struct PolygonMesh {
     ends: Vec<u32>,
     /// Edges flagged as ribs (OBJ `l` elements), as pairs of vertices.
     pub ribs: Vec<[u32; 2]>,
+    /// Runs of `ribs`, as first and end, that the file gives as whole lines: polylines, and edges with a name of their own.
+    pub wholes: Vec<[u32; 2]>,
+    /// What the file holds and was not read, in words.
+    pub notes: Vec<String>,
     /// Names of face groups.
     pub groups: Vec<String>,
     /// The group of each face, an index into `groups`; empty where the file has none.
@@ -33,6 +37,54 @@ impl PolygonMesh {
     pub fn push_face(&mut self, face: &[u32]) {
         self.corners.extend_from_slice(face);
         self.ends.push(self.corners.len() as u32);
+    }
+
+    /// Appends a polyline as a whole line that carries ribs.
+    pub fn push_line(&mut self, vertices: &[u32]) {
+        let first = self.ribs.len() as u32;
+        self.ribs.extend(vertices.windows(2).map(|pair| [pair[0], pair[1]]));
+        self.wholes.push([first, self.ribs.len() as u32]);
+    }
+
+    /// The ribs of another mesh with its vertices numbered anew; those that lose their length are left out.
+    pub fn set_ribs(&mut self, other: &PolygonMesh, number: impl Fn(u32) -> u32) {
+        let ribs: Vec<[u32; 2]> = other.ribs.iter().map(|rib| rib.map(&number)).collect();
+        let kept: Vec<u32> = std::iter::once(0)
+            .chain(ribs.iter().scan(0, |kept, [a, b]| {
+                *kept += u32::from(a != b);
+                Some(*kept)
+            }))
+            .collect();
+        self.wholes = other.wholes.iter().map(|whole| whole.map(|at| kept[at as usize])).collect();
+        self.ribs = ribs.into_iter().filter(|[a, b]| a != b).collect();
+    }
+
+    /// Leaves out corners that repeat their neighbour, where three or more are left, and says of how many faces: a triangle is
+    /// often written as a quad.
+    pub fn drop_repeated_corners(&mut self) -> usize {
+        let repeats = |face: &[u32]| (0..face.len()).any(|k| face[k] == face[(k + 1) % face.len()]);
+        if !self.faces().any(repeats) {
+            return 0;
+        }
+        let mut count = 0;
+        let old = std::mem::take(self);
+        for face in old.faces() {
+            let mut kept = face.to_vec();
+            kept.dedup();
+            while kept.len() > 1 && kept.first() == kept.last() {
+                kept.pop();
+            }
+            let fits = kept.len() >= 3;
+            count += usize::from(fits && kept.len() < face.len());
+            self.push_face(if fits { &kept } else { face });
+        }
+        *self = PolygonMesh { corners: std::mem::take(&mut self.corners), ends: std::mem::take(&mut self.ends), ..old };
+        count
+    }
+
+    /// Whether there are lines and no faces.
+    pub fn is_lines(&self) -> bool {
+        self.ends.is_empty() && !self.ribs.is_empty()
     }
 
     /// Number of faces.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{QuadMesh, angle};
+use super::{QuadMesh, Vector, angle};
 
 /// Smallest, mean and largest of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -49,7 +49,29 @@ pub fn edge_lengths(mesh: &QuadMesh) -> Range {
     Range::of((0..mesh.edge_count() as u32).map(|e| mesh.edge_length(e)))
 }
 
-/// Area of all faces (vector areas).
+/// Area of all faces: of their bilinear patches.
 pub fn area(mesh: &QuadMesh) -> f64 {
-    (0..mesh.face_count() as u32).map(|f| mesh.vector_area(f).norm()).sum()
+    mesh.faces().iter().map(|face| patch_area(&face.map(|v| mesh.positions[v as usize]))).sum()
+}
+
+/// The area of the bilinear patch over four corners, ∫‖T_u × T_v‖ by three Gauss points each way. The integrand is constant along
+/// a planar parallelogram, and a polynomial where a quad is planar, so that these are exact; warped quads to about 1e−4 where a corner
+/// lies an edge above the others.
+///
+/// ```
+/// use ribopt::mesh::{Vector, quality::patch_area};
+/// let saddle = [0.0, 1.0, 0.0, 1.0].into_iter().zip([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+/// let corners: Vec<Vector> = saddle.map(|(z, [x, y])| Vector::new(x, y, z)).collect();
+/// // The vector area is 1; the patch z = u + v − 2uv has 1.2808.
+/// assert!((patch_area(&[corners[0], corners[1], corners[2], corners[3]]) - 1.280789).abs() < 1e-3);
+/// ```
+pub fn patch_area([a, b, c, d]: &[Vector; 4]) -> f64 {
+    const POINTS: [(f64, f64); 3] =
+        [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+    let at = |(u, wu): (f64, f64), (v, wv): (f64, f64)| {
+        let along_u = (b - a) * (1.0 - v) + (c - d) * v;
+        let along_v = (d - a) * (1.0 - u) + (c - b) * u;
+        wu * wv * along_u.cross(&along_v).norm()
+    };
+    POINTS.iter().flat_map(|&u| POINTS.iter().map(move |&v| at(u, v))).sum()
 }

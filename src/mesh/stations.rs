@@ -29,6 +29,56 @@ impl Frame {
         let y = unit(across).filter(|_| across.norm() > 1e-6)?;
         Some(Frame { x, y, z: x.cross(&y) })
     }
+
+    /// The frame of a line without a surface: z as near to the global z as can be; of a line that is vertical to within a
+    /// thousandth, to the global x.
+    pub fn upright(tangent: Vector) -> Option<Frame> {
+        let x = unit(tangent)?;
+        Frame::new(x, if x.x.hypot(x.y) < 1e-3 { Vector::x() } else { Vector::z() })
+    }
+}
+
+/// Where the frames of a line come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frames {
+    /// A smooth surface: a line without frames, or one where they turn over, is a mistake.
+    Smooth,
+    /// Any faces: where their normals give no frame, the line is upright.
+    Faces,
+    /// Nothing but the line itself: it is upright.
+    Upright,
+}
+
+/// What lines run over: points, and the surface's normals there.
+pub trait Support {
+    /// Where vertex `v` is.
+    fn position(&self, v: u32) -> Vector;
+    /// The unit normal of the surface there, if there is one.
+    fn normal(&self, v: u32) -> Option<Vector>;
+    /// The frame of a line with this tangent, where the surface has this normal.
+    fn frame(&self, tangent: Vector, normal: Option<Vector>) -> Option<Frame> {
+        Frame::new(tangent, normal?)
+    }
+    /// Where frames come from.
+    fn frames(&self) -> Frames {
+        Frames::Smooth
+    }
+    /// Whether only flagged edges carry ribs.
+    fn has_flags(&self) -> bool;
+}
+
+impl Support for QuadMesh {
+    fn position(&self, v: u32) -> Vector {
+        self.positions[v as usize]
+    }
+
+    fn normal(&self, v: u32) -> Option<Vector> {
+        self.normal_at(v)
+    }
+
+    fn has_flags(&self) -> bool {
+        QuadMesh::has_flags(self)
+    }
 }
 
 /// A point on a rib line.
@@ -53,6 +103,8 @@ pub struct StationLine {
     pub closed: bool,
     /// The stations.
     pub stations: Vec<Station>,
+    /// Where its frames come from.
+    pub frames: Frames,
 }
 
 impl StationLine {
@@ -94,22 +146,28 @@ const MOST: usize = 10_000_000;
 /// assert_eq!(lines.iter().map(|line| line.stations.len()).sum::<usize>(), 2 * 5 + 3 * 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn slice(mesh: &QuadMesh, lines: &[Line], longest: f64) -> Result<Vec<StationLine>, StationError> {
+pub fn slice(support: &dyn Support, lines: &[Line], longest: f64) -> Result<Vec<StationLine>, StationError> {
     if longest.is_nan() || longest <= 0.0 {
         return Err(StationError::Length(longest));
     }
-    lines.iter().enumerate().map(|(at, line)| slice_line(mesh, line, format!("L{}", at + 1), longest)).collect()
+    lines.iter().enumerate().map(|(at, line)| slice_line(support, line, format!("L{}", at + 1), longest)).collect()
 }
 
-fn slice_line(mesh: &QuadMesh, line: &Line, name: String, longest: f64) -> Result<StationLine, StationError> {
-    let position = |v: u32| mesh.positions[v as usize];
+fn slice_line(support: &dyn Support, line: &Line, name: String, longest: f64) -> Result<StationLine, StationError> {
+    let position = |v: u32| support.position(v);
     let tangents = tangents(line, position);
+    let frames = support.frames();
+    let strict = frames == Frames::Smooth;
     let no_frame = |vertex: u32| StationError::NoFrame { line: name.clone(), vertex: vertex + 1 };
-    let mut sliced = StationLine { name: name.clone(), closed: line.closed, stations: Vec::new() };
+    let mut sliced = StationLine { name: name.clone(), closed: line.closed, stations: Vec::new(), frames };
+    let normal = |v: u32| match support.normal(v) {
+        None if strict => Err(no_frame(v)),
+        normal => Ok(normal),
+    };
     let mut s = 0.0;
     for (k, pair) in line.vertices.windows(2).enumerate() {
         let (a, b) = (pair[0], pair[1]);
-        let (from, to) = (mesh.normal_at(a).ok_or_else(|| no_frame(a))?, mesh.normal_at(b).ok_or_else(|| no_frame(b))?);
+        let (from, to) = (normal(a)?, normal(b)?);
         let chord = position(b) - position(a);
         let length = chord.norm();
         let parts = (length / longest).ceil().max(1.0);
@@ -119,16 +177,21 @@ fn slice_line(mesh: &QuadMesh, line: &Line, name: String, longest: f64) -> Resul
         for part in 0..parts as u64 {
             let t = part as f64 / parts;
             let (vertex, tangent) = if part == 0 { (a, tangents[k]) } else { (NONE, chord) };
-            let frame = Frame::new(tangent, from * (1.0 - t) + to * t).ok_or_else(|| no_frame(a))?;
+            let between = from.zip(to).map(|(from, to)| from * (1.0 - t) + to * t);
+            let frame = support.frame(tangent, between).or_else(|| support.frame(chord, None)).ok_or_else(|| no_frame(a))?;
             sliced.stations.push(Station { vertex, s: s + t * length, position: position(a) + chord * t, frame });
         }
         s += length;
     }
     if let (Some(&last), Some(&tangent)) = (line.vertices.last(), tangents.last()) {
-        let frame = mesh.normal_at(last).and_then(|normal| Frame::new(tangent, normal)).ok_or_else(|| no_frame(last))?;
+        let frame = support.frame(tangent, normal(last)?);
+        let before = || sliced.stations.last().map(|station| station.frame).filter(|_| !strict);
+        let frame = frame.or_else(before).ok_or_else(|| no_frame(last))?;
         sliced.stations.push(Station { vertex: last, s, position: position(last), frame });
     }
-    check_continuity(&sliced)?;
+    if strict {
+        check_continuity(&sliced)?;
+    }
     Ok(sliced)
 }
 
@@ -150,12 +213,15 @@ fn tangents(line: &Line, position: impl Fn(u32) -> Vector) -> Vec<Vector> {
     tangents
 }
 
+/// The cosine of a right angle, less rounding: at the rim of a square tube of one cell neighbouring normals stand at a right angle.
+const RIGHT_ANGLE: f64 = -1e-9;
+
 fn check_continuity(line: &StationLine) -> Result<(), StationError> {
     let mut vertex = NONE;
     for pair in line.stations.windows(2) {
         vertex = if pair[0].vertex == NONE { vertex } else { pair[0].vertex };
         let (a, b) = (&pair[0].frame, &pair[1].frame);
-        if a.z.dot(&b.z) <= 0.0 || a.y.dot(&b.y) <= 0.0 {
+        if a.z.dot(&b.z) < RIGHT_ANGLE || a.y.dot(&b.y) < RIGHT_ANGLE {
             let after = line.stations.iter().find(|station| station.s > pair[0].s && station.vertex != NONE);
             let to = after.map_or(vertex, |station| station.vertex);
             return Err(StationError::Flip { line: line.name.clone(), from: vertex + 1, to: to + 1 });

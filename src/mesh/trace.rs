@@ -5,6 +5,8 @@
 
 use serde::Serialize;
 
+use super::graph::Rule;
+use super::stations::Support;
 use super::{NONE, QuadMesh};
 
 /// A rib line.
@@ -29,10 +31,16 @@ pub struct TraceReport {
     pub edges: usize,
     /// Whether only flagged edges were traced.
     pub flagged_only: bool,
+    /// How edges were joined to lines.
+    pub rule: Rule,
+    /// Vertices where lines end.
+    pub ends: usize,
     /// Length of all lines.
     pub length: f64,
     /// Lines that meet themselves, by number from 1, with the vertices (from 1) where they do.
     pub self_crossings: Vec<SelfCrossing>,
+    /// What a user should know of the file.
+    pub notes: Vec<String>,
 }
 
 /// A line that passes a vertex more than once.
@@ -54,20 +62,29 @@ pub struct SelfCrossing {
 /// # Ok::<(), ribopt::mesh::Defects>(())
 /// ```
 pub fn trace(mesh: &QuadMesh) -> Vec<Line> {
-    let partners = partners(mesh);
-    let mut seen = vec![false; mesh.edge_count()];
+    lines_of(mesh.edge_count() as u32, |e| mesh.ends(e), |e| mesh.is_rib(e), &partners(mesh))
+}
+
+/// The lines of edges that know their partners.
+pub(super) fn lines_of(
+    count: u32,
+    ends: impl Fn(u32) -> [u32; 2],
+    is_rib: impl Fn(u32) -> bool,
+    partners: &[[u32; 2]],
+) -> Vec<Line> {
+    let mut seen = vec![false; count as usize];
     let mut lines = Vec::new();
-    let ribs = || (0..mesh.edge_count() as u32).filter(|&e| mesh.is_rib(e));
+    let ribs = || (0..count).filter(|&e| is_rib(e));
     for edge in ribs() {
         for end in 0..2 {
             if partners[edge as usize][end] == NONE && !seen[edge as usize] {
-                lines.push(follow(mesh, &partners, &mut seen, edge, end));
+                lines.push(follow(&ends, partners, &mut seen, edge, end));
             }
         }
     }
     for edge in ribs() {
         if !seen[edge as usize] {
-            lines.push(follow(mesh, &partners, &mut seen, edge, 0));
+            lines.push(follow(&ends, partners, &mut seen, edge, 0));
         }
     }
     lines
@@ -102,13 +119,13 @@ fn end_at(mesh: &QuadMesh, e: u32, v: u32) -> usize {
 }
 
 /// Walks from end `end` of `edge` away over the edge until the line ends or comes back to `edge`.
-fn follow(mesh: &QuadMesh, partners: &[[u32; 2]], seen: &mut [bool], edge: u32, end: usize) -> Line {
-    let mut line = Line { vertices: vec![mesh.ends(edge)[end]], edges: Vec::new(), closed: false };
+fn follow(ends: impl Fn(u32) -> [u32; 2], partners: &[[u32; 2]], seen: &mut [bool], edge: u32, end: usize) -> Line {
+    let mut line = Line { vertices: vec![ends(edge)[end]], edges: Vec::new(), closed: false };
     let (mut edge, mut end) = (edge, end);
     loop {
         seen[edge as usize] = true;
         line.edges.push(edge);
-        let far = mesh.ends(edge)[1 - end];
+        let far = ends(edge)[1 - end];
         line.vertices.push(far);
         let onward = partners[edge as usize][1 - end];
         if onward == NONE {
@@ -118,25 +135,37 @@ fn follow(mesh: &QuadMesh, partners: &[[u32; 2]], seen: &mut [bool], edge: u32, 
             line.closed = true;
             return line;
         }
-        (edge, end) = (onward, end_at(mesh, onward, far));
+        (edge, end) = (onward, usize::from(ends(onward)[0] != far));
     }
 }
 
 /// Counts lines, sums their length and finds where they meet themselves.
-pub fn report(mesh: &QuadMesh, lines: &[Line]) -> TraceReport {
-    let edges = lines.iter().flat_map(|line| &line.edges);
+pub fn report(support: &dyn Support, lines: &[Line]) -> TraceReport {
     let crossing = |(at, line): (usize, &Line)| {
         let vertices = repeated(line);
         (!vertices.is_empty()).then_some(SelfCrossing { line: at + 1, vertices })
     };
+    let chord = |pair: &[u32]| (support.position(pair[1]) - support.position(pair[0])).norm();
     TraceReport {
         lines: lines.len(),
         closed: lines.iter().filter(|line| line.closed).count(),
-        edges: edges.clone().count(),
-        flagged_only: mesh.has_flags(),
-        length: edges.map(|&e| mesh.edge_length(e)).sum(),
+        edges: lines.iter().map(|line| line.edges.len()).sum(),
+        flagged_only: support.has_flags(),
+        rule: Rule::Topology,
+        ends: ends(lines),
+        length: lines.iter().flat_map(|line| line.vertices.windows(2)).map(chord).sum(),
         self_crossings: lines.iter().enumerate().filter_map(crossing).collect(),
+        notes: Vec::new(),
     }
+}
+
+fn ends(lines: &[Line]) -> usize {
+    let open = lines.iter().filter(|line| !line.closed);
+    let mut ends: Vec<u32> =
+        open.flat_map(|line| line.vertices.first().into_iter().chain(line.vertices.last())).copied().collect();
+    ends.sort_unstable();
+    ends.dedup();
+    ends.len()
 }
 
 /// Vertices (from 1) a line passes more than once. Ends that meet, closed or at a corner, are no crossing.

@@ -16,7 +16,7 @@ pub struct WeldReport {
 }
 
 /// Joins every vertex to the first earlier one kept within `tolerance` (chains do not creep: only kept vertices attract),
-/// and drops the joined ones. Faces that lose corners stay, to be named as defects.
+/// and drops the joined ones, and ribs whose ends are joined. Faces that lose corners stay, with these corners repeated.
 ///
 /// ```
 /// use ribopt::mesh::{formats::read_obj, weld::weld};
@@ -50,7 +50,7 @@ pub fn weld(mesh: PolygonMesh, tolerance: f64) -> (PolygonMesh, WeldReport) {
         let face: Vec<u32> = face.iter().map(|&v| number[v as usize]).collect();
         welded.push_face(&face);
     }
-    (welded.groups, welded.group_of) = (mesh.groups.clone(), mesh.group_of.clone());
-    welded.ribs = mesh.ribs.iter().map(|rib| rib.map(|v| number[v as usize])).collect();
+    (welded.groups, welded.group_of, welded.notes) = (mesh.groups.clone(), mesh.group_of.clone(), mesh.notes.clone());
+    welded.set_ribs(&mesh, |v| number[v as usize]);
     (welded, report)
 }

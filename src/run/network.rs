@@ -123,9 +123,9 @@ impl Sized {
 /// Refuses a file for solids before anything is solved, where its ending names no format.
 ///
 /// # Errors
-/// An ending other than `.obj`, `.stl` and `.vtu`.
+/// An ending other than `.obj`, `.stl`, `.vtu`, `.glb` and `.dxf`.
 pub fn check_ending(out: &Path) -> Result<(), NetworkFailure> {
-    Ok(formats::check_writable(out)?)
+    Ok(formats::check_ribs_writable(out)?)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::Subject;
 use crate::certificate::Certificate;
 use crate::crosscheck::Outcome;
-use crate::model::{Limit, Model, Own};
+use crate::model::{Model, Own};
 
 /// The outcome as reports show it: without auxiliaries, the objective and the rows as the user's expressions at the point.
 pub fn present(subject: &Subject, mut outcome: Outcome) -> Outcome {
@@ -31,15 +31,6 @@ pub fn present(subject: &Subject, mut outcome: Outcome) -> Outcome {
     outcome.runaway.retain(|&j| j < own.variables);
     if let Some(moved) = &mut outcome.moved_start {
         moved.x.truncate(own.variables);
-    }
-    if let Some(conflict) = &mut outcome.conflict {
-        conflict.violated_rows.retain(|&(row, _)| row < own.rows);
-        conflict.rows.retain(|&row| row < own.rows);
-        conflict.bounds.retain(|&(j, _)| j < own.variables);
-        conflict.alternatives.retain(|alternative| match alternative.limit {
-            Limit::Row(row, _) => row < own.rows,
-            Limit::Bound(j, _) => j < own.variables,
-        });
     }
     outcome
 }

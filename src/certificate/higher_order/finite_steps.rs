@@ -82,8 +82,9 @@ struct Walk<'w, 'p> {
     held: Vec<usize>,
     may_be_left: Vec<bool>,
     kkt: Kkt<'w>,
-    /// The Lagrangian at the point: limits missed by a little are no gain.
-    here: f64,
+    /// The objective at the point and its Lagrangian, the lower first: going to a limit that is missed by a little is neither a
+    /// fall nor a rise.
+    here: (f64, f64),
     /// ∇f + Jᵀy
     slopes: Vec<f64>,
 }
@@ -106,7 +107,8 @@ impl<'w, 'p> Walk<'w, 'p> {
         let mut kkt = Kkt::new(point, hessian, &free, &held)?;
         kkt.factor_proximal()?;
         let multipliers = active.multipliers;
-        let here = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
+        let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
+        let here = (point.objective.min(balanced), point.objective.max(balanced));
         let slopes = point.row_gradient(&multipliers.rows);
         Ok(Walk {
             point,
@@ -138,12 +140,12 @@ impl<'w, 'p> Walk<'w, 'p> {
             let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
                 continue;
             };
-            let change = trial.penalised(point, self.multipliers) - self.here;
+            let value = trial.penalised(point, self.multipliers);
             let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
-            if change < -explained {
+            if value < self.here.0 - explained {
                 return Some(x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect());
             }
-            if change > explained {
+            if value > self.here.1 + explained {
                 return None;
             }
         }

@@ -6,11 +6,13 @@ use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 
 use super::values;
 use ribopt::mesh::commands::Source;
+use ribopt::mesh::graph::Rule;
 use ribopt::mesh::ribs;
 use ribopt::mesh::section::Plane;
 
-const CHECK_CODES: &str = "Exit codes:\n  0  a clean quad mesh\n  1  it has defects\n  2  no mesh could be read";
-const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes are left that no rule could fill\n  2  nothing was written, for the reason told";
+const CHECK_CODES: &str =
+    "Exit codes:\n  0  a clean quad mesh, polygon mesh or network of lines\n  1  it has defects\n  2  no mesh could be read";
+const RECONSTRUCT_CODES: &str = "Exit codes:\n  0  done\n  1  done, but holes or notches are left that no rule could fill\n  2  nothing was written, for the reason told";
 const SMOOTH_CODES: &str =
     "Exit codes:\n  0  done\n  1  done, but faces were turned over\n  2  nothing was written, for the reason told";
 const CODES: &str = "Exit codes:\n  0  done\n  2  nothing was written, for the reason told";
@@ -43,7 +45,7 @@ pub enum Stage {
 /// The mesh every stage starts from.
 #[derive(Debug, Args)]
 pub struct Mesh {
-    /// The mesh: .obj (l elements flag rib edges), .ply, .off or .stl
+    /// The mesh or lines: .obj (l elements and curves flag rib edges), .ply, .off, .stl, or lines alone as .csv or .dxf
     mesh: PathBuf,
     /// Join vertices within this distance first
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
@@ -52,8 +54,17 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn source(&self) -> Source {
-        Source { path: self.mesh.clone(), weld: self.weld }
+        Source { path: self.mesh.clone(), weld: self.weld, ..Source::default() }
     }
+}
+
+/// How edges become lines.
+#[derive(Debug, Args)]
+pub struct Joined {
+    /// How edges are joined to lines: auto (quads by topology, triangles and lines by straightest continuation, polylines of
+    /// the file as given), topology, straight, given, edges (one line each)
+    #[arg(long, value_name = "RULE", default_value = "auto", value_parser = values::rule)]
+    pub lines: Rule,
 }
 
 /// How the finding is shown.
@@ -82,7 +93,7 @@ pub struct Reconstruct {
     /// The new mesh (.obj, .stl or .vtu); what was done goes to the same name with .json
     #[arg(long, short, value_name = "OUT")]
     pub out: PathBuf,
-    /// How far new faces may lie off the original and vertices are snapped; default: a tenth of the mean edge
+    /// How far new faces may lie off the original and vertices may be moved; default: a tenth of the original's mean edge
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Do not fill notches and holes
@@ -145,7 +156,9 @@ pub struct Smooth {
 pub struct Trace {
     #[command(flatten)]
     pub mesh: Mesh,
-    /// The lines: .obj (l elements) or .csv; the report goes to the same name with .json
+    #[command(flatten)]
+    pub joined: Joined,
+    /// The lines: .obj (l elements), .csv or .dxf; the report goes to the same name with .json
     #[arg(long, short, value_name = "LINES", value_parser = values::lines_file)]
     pub out: PathBuf,
     #[command(flatten)]
@@ -157,6 +170,8 @@ pub struct Trace {
 pub struct Slice {
     #[command(flatten)]
     pub mesh: Mesh,
+    #[command(flatten)]
+    pub joined: Joined,
     /// Longest segment between stations
     #[arg(long, value_name = "LENGTH", group = "what", allow_negative_numbers = true)]
     pub segments: Option<f64>,
@@ -183,6 +198,8 @@ pub enum Law {
 pub struct Ribs {
     #[command(flatten)]
     pub mesh: Mesh,
+    #[command(flatten)]
+    pub joined: Joined,
     /// Kind of section
     #[arg(long, value_name = "KIND", default_value = "rectangle", value_parser = values::kind)]
     pub kind: ribs::SectionKind,
@@ -192,6 +209,9 @@ pub struct Ribs {
     /// Longest rib; default: one rib per mesh edge
     #[arg(long, value_name = "LENGTH", default_value_t = f64::INFINITY, hide_default_value = true, allow_negative_numbers = true)]
     pub segments: f64,
+    /// The unit of length of the mesh, and of all numbers of this command and of the problem; forces are kilonewtons
+    #[arg(long, value_name = "mm|cm|m|in", value_parser = values::unit)]
+    pub unit: Option<ribs::Unit>,
     /// Bounds of a dimension at all sections (repeatable); the start is their geometric mean where it is left out
     #[arg(long = "bounds", value_name = "DIM=LOWER:UPPER[:START]", value_parser = values::bounds)]
     pub bounds: Vec<ribs::Bounds>,
@@ -210,7 +230,7 @@ pub struct Ribs {
     pub shown: Shown,
 }
 
-/// Loads and limits; the defaults are steel in metres and kilonewtons.
+/// Loads and limits; the defaults are steel, in kilonewtons and the unit (metres where none is said).
 #[derive(Debug, Args)]
 pub struct RibLimits {
     /// Young's modulus

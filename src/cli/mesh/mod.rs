@@ -9,11 +9,11 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 pub use arguments::Stage;
-use arguments::{Check, Law, Method, New, Reconstruct, RibLimits, Ribs, Shown, Slice, Smooth, Trace};
+use arguments::{Check, Joined, Law, Mesh, Method, New, Reconstruct, RibLimits, Ribs, Shown, Slice, Smooth, Trace};
 
 use super::failure::Failure;
 use super::output;
-use ribopt::mesh::commands;
+use ribopt::mesh::commands::{self, Source};
 use ribopt::mesh::features::FeatureOptions;
 use ribopt::mesh::{reconstruct, ribs, smooth};
 use ribopt::report::result::write_value;
@@ -52,7 +52,7 @@ fn reconstruct(arguments: &Reconstruct) -> Result<u8, Failure> {
     let options = reconstruct::Options { tolerance: arguments.tolerance, fill: !arguments.no_fill, snap: !arguments.no_snap };
     let report = commands::reconstruct_file(&arguments.mesh.source(), &arguments.original, options, &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::reconstruct(report, &arguments.out, out))?;
-    Ok(u8::from(report.stage.unfilled_loops > 0))
+    Ok(u8::from(!report.stage.open.is_empty()))
 }
 
 fn smooth(arguments: &Smooth) -> Result<u8, Failure> {
@@ -73,14 +73,18 @@ fn smooth(arguments: &Smooth) -> Result<u8, Failure> {
     Ok(u8::from(!report.stage.flipped.is_empty()))
 }
 
+fn lines_of(mesh: &Mesh, joined: &Joined) -> Source {
+    Source { rule: joined.lines, ..mesh.source() }
+}
+
 fn trace(arguments: &Trace) -> Result<u8, Failure> {
-    let report = commands::trace_file(&arguments.mesh.source(), &arguments.out)?;
+    let report = commands::trace_file(&lines_of(&arguments.mesh, &arguments.joined), &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::trace(report, &arguments.out, out))?;
     Ok(0)
 }
 
 fn slice(arguments: &Slice) -> Result<u8, Failure> {
-    let (source, out) = (arguments.mesh.source(), &arguments.out);
+    let (source, out) = (lines_of(&arguments.mesh, &arguments.joined), &arguments.out);
     match (&arguments.plane, arguments.segments) {
         (Some(plane), _) => {
             let report = commands::section_file(&source, plane, out)?;
@@ -96,7 +100,7 @@ fn slice(arguments: &Slice) -> Result<u8, Failure> {
 }
 
 fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
-    let defaults = ribs::Options::of(arguments.kind);
+    let defaults = ribs::Options::with_unit(arguments.kind, arguments.unit);
     let options = ribs::Options {
         bounds: arguments.bounds.clone(),
         prismatoid: arguments.volume == Law::Prismatoid,
@@ -104,7 +108,8 @@ fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
         title: arguments.title.clone().unwrap_or(defaults.title.clone()),
         ..with_limits(defaults, &arguments.limits)
     };
-    let report = commands::ribs_folder(&arguments.mesh.source(), arguments.segments, &options, &arguments.out)?;
+    let report =
+        commands::ribs_folder(&lines_of(&arguments.mesh, &arguments.joined), arguments.segments, &options, &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::ribs(report, &arguments.out, out))?;
     Ok(0)
 }

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ribopt::mesh::commands::{CheckReport, RibsReport, SectionReport, Staged};
+use ribopt::mesh::graph::Rule;
 use ribopt::mesh::invariants::Invariants;
 use ribopt::mesh::quality::Range;
 use ribopt::mesh::stations::StationReport;
@@ -24,7 +25,12 @@ pub fn check(report: &CheckReport, out: Out) -> Words {
     if let Some(weld) = &report.weld {
         welded(weld, out)?;
     }
-    report.invariants.as_ref().map_or(Ok(()), |numbers| invariants(numbers, out))
+    notes(&report.notes, out)?;
+    invariants(&report.invariants, out)
+}
+
+fn notes(notes: &[String], out: Out) -> Words {
+    notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))
 }
 
 fn welded(weld: &WeldReport, out: Out) -> Words {
@@ -34,13 +40,27 @@ fn welded(weld: &WeldReport, out: Out) -> Words {
 pub fn invariants(numbers: &Invariants, out: Out) -> Words {
     let Invariants { vertices, edges, faces, rib_edges, components, .. } = numbers;
     writeln!(out, "{vertices} vertices, {edges} edges ({rib_edges} with ribs), {faces} faces, {components} connected")?;
+    if numbers.quads < *faces {
+        let Invariants { triangles, quads, larger, .. } = numbers;
+        let ends = if *quads > 0 { "; lines end where they break the grid" } else { "" };
+        writeln!(out, "{triangles} triangles, {quads} quads, {larger} larger faces{ends}")?;
+    }
+    if *faces == 0 {
+        writeln!(out, "lines without a surface")?;
+        return range("edge lengths", &numbers.edge_lengths, out);
+    }
     let loops = listing(numbers.boundary_loops.iter().map(usize::to_string), SHOWN);
     let loops = if loops.is_empty() { "none".into() } else { format!("of {loops} vertices") };
     writeln!(out, "Euler characteristic {}, boundary loops: {loops}", numbers.euler_characteristic)?;
     irregular("inside (valence not 4)", &numbers.irregular_interior, out)?;
     irregular("on the boundary (valence not 3)", &numbers.irregular_boundary, out)?;
     let agrees = if numbers.valence_identity { "as it must be" } else { "which it must not be" };
-    writeln!(out, "valences add up to {}, 4 × {}: {agrees}", numbers.valence_sum, numbers.euler_characteristic)?;
+    let corners = match numbers.corner_sum {
+        0 => String::new(),
+        sum => format!(" {} {} for the faces' corners", if sum < 0 { "−" } else { "+" }, sum.abs()),
+    };
+    let (sum, euler) = (numbers.valence_sum, numbers.euler_characteristic);
+    writeln!(out, "valences add up to {sum}, 4 × {euler}{corners}: {agrees}")?;
     range("edge lengths", &numbers.edge_lengths, out)?;
     range("angles", &numbers.angles, out)?;
     range("planarity (0 is planar)", &numbers.planarity, out)?;
@@ -73,6 +93,10 @@ pub fn reconstruct(report: &Staged<rebuilt::Report>, file: &Path, out: Out) -> W
     )?;
     let [before, after] = stage.euler_characteristic;
     writeln!(out, "Euler characteristic {before} before, {after} after; holes left: {}", stage.unfilled_loops)?;
+    for run in stage.open.iter().take(SHOWN) {
+        let vertices = listing(run.iter().map(u32::to_string), SHOWN);
+        writeln!(out, "left open, though the original goes on beyond the edges of vertices {vertices}: no rule fits there")?;
+    }
     let (most, apart) = (short(stage.largest_move), short(stage.hausdorff.distance));
     writeln!(out, "tolerance {}, longest move {most}, Hausdorff distance {apart}", short(stage.tolerance))?;
     invariants(&report.invariants, out)
@@ -98,7 +122,14 @@ pub fn smooth(report: &Staged<smoothed::Report>, file: &Path, out: Out) -> Words
 pub fn trace(report: &TraceReport, file: &Path, out: Out) -> Words {
     writeln!(out, "{}: {}, {} of them closed", file.display(), count(report.lines, "line"), report.closed)?;
     let which = if report.flagged_only { "flagged " } else { "" };
-    writeln!(out, "{} {which}edges, length {}", report.edges, short(report.length))?;
+    let rule = match report.rule {
+        Rule::Topology => "straight on where the mesh is regular",
+        Rule::Given => "as the file gives them",
+        Rule::Edges => "one per edge",
+        _ => "by straightest continuation, and as the file gives them",
+    };
+    writeln!(out, "{} {which}edges, length {}; {rule}, ending at {}", report.edges, short(report.length), places(report.ends))?;
+    notes(&report.notes, out)?;
     for crossing in report.self_crossings.iter().take(SHOWN) {
         let vertices = listing(crossing.vertices.iter().map(u32::to_string), SHOWN);
         writeln!(out, "line {} meets itself at vertex {vertices}", crossing.line)?;
@@ -107,6 +138,10 @@ pub fn trace(report: &TraceReport, file: &Path, out: Out) -> Words {
         0 => Ok(()),
         more => writeln!(out, "… and {more} more lines meet themselves"),
     }
+}
+
+fn places(ends: usize) -> String {
+    if ends == 1 { "1 vertex".into() } else { format!("{ends} vertices") }
 }
 
 pub fn stations(report: &StationReport, file: &Path, out: Out) -> Words {
@@ -125,7 +160,7 @@ pub fn section(report: &SectionReport, file: &Path, out: Out) -> Words {
         let holes = count(piece.holes, "hole");
         writeln!(out, "piece {}: area {area}, centroid ({x}, {y}), Ix {ix}, Iy {iy}, {holes}", at + 1)?;
     }
-    Ok(())
+    notes(&report.notes, out)
 }
 
 pub fn ribs(report: &RibsReport, folder: &Path, out: Out) -> Words {
@@ -140,5 +175,7 @@ pub fn ribs(report: &RibsReport, folder: &Path, out: Out) -> Words {
         count(problem.variables, "variable"),
         short(problem.length)
     )?;
+    notes(&report.trace.notes, out)?;
+    problem.warnings.iter().try_for_each(|warning| writeln!(out, "warning: {warning}"))?;
     writeln!(out, "solve it: ribopt solve {}", folder.join("problem.toml").display())
 }

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use ribopt::mesh::Vector;
-use ribopt::mesh::ribs::{Bounds, SectionKind};
+use ribopt::mesh::graph::Rule;
+use ribopt::mesh::ribs::{Bounds, SectionKind, Unit};
 use ribopt::mesh::section::Plane;
 
 /// Degrees.
@@ -67,9 +68,26 @@ pub fn kind(text: &str) -> Result<SectionKind, String> {
     })
 }
 
+/// A unit of length.
+pub fn unit(text: &str) -> Result<Unit, String> {
+    Unit::parse(text).ok_or_else(|| format!("a unit is one of {}", Unit::ALL.map(Unit::name).join(", ")))
+}
+
+/// How edges become lines.
+pub fn rule(text: &str) -> Result<Rule, String> {
+    match text {
+        "auto" => Ok(Rule::Auto),
+        "topology" => Ok(Rule::Topology),
+        "straight" => Ok(Rule::Straight),
+        "given" => Ok(Rule::Given),
+        "edges" => Ok(Rule::Edges),
+        _ => Err("edges are joined by one of auto, topology, straight, given, edges".into()),
+    }
+}
+
 /// A file for rib lines.
 pub fn lines_file(text: &str) -> Result<PathBuf, String> {
-    with_ending(text, &["obj", "csv"])
+    with_ending(text, &["obj", "csv", "dxf"])
 }
 
 /// A file for stations or sections.

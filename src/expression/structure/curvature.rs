@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::{Interval, Structure};
+use super::product::product_curvature;
+use super::{Interval, Structure, norm};
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::operators::{Binary, Unary};
 
@@ -55,8 +56,13 @@ impl Curvature {
         }
     }
 
+    /// This, or what another rule finds where this one found nothing.
+    pub(super) fn or_else(self, other: impl FnOnce() -> Self) -> Self {
+        if self == Unknown { other() } else { self }
+    }
+
     /// Of c·f for a factor of this sign.
-    fn scaled(self, factor: Interval) -> Self {
+    pub(super) fn scaled(self, factor: Interval) -> Self {
         match self {
             Constant | Affine => self,
             _ if factor.is_non_negative() => self,
@@ -68,7 +74,7 @@ impl Curvature {
 
 /// How a function of one argument bends over the argument's range, and whether it rises or falls.
 #[derive(Clone, Copy)]
-struct Shape {
+pub(super) struct Shape {
     bend: Curvature,
     slope: Slope,
 }
@@ -106,7 +112,7 @@ impl Shape {
     }
 
     /// Of the function applied to an argument of this curvature.
-    fn compose(self, argument: Curvature) -> Curvature {
+    pub(super) fn compose(self, argument: Curvature) -> Curvature {
         let slope_fits = |wanted_convex: bool| match self.slope {
             Slope::Rising => (argument.is_convex() && wanted_convex) || (argument.is_concave() && !wanted_convex),
             Slope::Falling => (argument.is_concave() && wanted_convex) || (argument.is_convex() && !wanted_convex),
@@ -123,14 +129,26 @@ impl Shape {
     }
 }
 
-/// The curvature of a node whose operands are known.
-pub(super) fn curvature(graph: &Graph, node: Node, interval: Interval, known: &[Structure]) -> Curvature {
+/// The curvature of a node whose operands are known: by the operation and, where that does not tell, by what its operands are made of.
+pub(super) fn curvature(graph: &Graph, id: NodeId, node: Node, interval: Interval, known: &[Structure]) -> Curvature {
+    by_rules(graph, node, interval, known).or_else(|| product_curvature(graph, id, node, known))
+}
+
+/// The curvature by rules that look at one operation and at what is known of its operands.
+pub(super) fn by_rules(graph: &Graph, node: Node, interval: Interval, known: &[Structure]) -> Curvature {
+    by_operation(graph, node, interval, known).or_else(|| norm::root_curvature(graph, node, known))
+}
+
+fn by_operation(graph: &Graph, node: Node, interval: Interval, known: &[Structure]) -> Curvature {
     let of = |id: NodeId| known[id as usize];
     match node {
         Node::Constant(_) | Node::Data(_) => Constant,
         Node::Input(_) if interval.as_point().is_some() => Constant, // fixed by its bounds
         Node::Input(_) => Affine,
-        Node::Unary(op, a) => unary_shape(op, of(a).interval).compose(of(a).curvature),
+        Node::Unary(op, a) => match unary_shape(op, of(a).interval).compose(of(a).curvature) {
+            Unknown if matches!(op, Unary::Log | Unary::Log10) => of(a).logarithm,
+            known => known,
+        },
         Node::Binary(op, a, b) => binary(graph, op, (a, of(a)), (b, of(b)), known),
     }
 }
@@ -150,7 +168,10 @@ fn binary(
         (Binary::Multiply, Constant, r) => r.scaled(left.interval),
         (Binary::Multiply, l, Constant) => l.scaled(right.interval),
         (Binary::Divide, l, Constant) => l.scaled(right.interval),
-        (Binary::Divide, Constant, r) => power_shape(-1.0, right.interval).compose(r).scaled(left.interval),
+        (Binary::Divide, Constant, r) => match power_shape(-1.0, right.interval).compose(r) {
+            Unknown if right.logarithm.is_concave() => Convex.scaled(left.interval),
+            known => known.scaled(left.interval),
+        },
         (Binary::Divide, _, r) => square_over(graph, a, r, right.interval, known),
         (Binary::Power, l, Constant) => right.interval.as_point().map_or(Unknown, |p| power_shape(p, left.interval).compose(l)),
         (Binary::Power, Constant, r) => exponential_shape(left.interval).compose(r),
@@ -199,7 +220,7 @@ fn unary_shape(op: Unary, range: Interval) -> Shape {
 }
 
 /// Of u ↦ u^p over the range of u; for p not whole the domain is u ≥ 0.
-fn power_shape(p: f64, range: Interval) -> Shape {
+pub(super) fn power_shape(p: f64, range: Interval) -> Shape {
     let (whole, even) = (p.fract() == 0.0, p % 2.0 == 0.0);
     let rising = |bend| Shape::of(bend, Slope::Rising);
     let falling = |bend| Shape::of(bend, Slope::Falling);

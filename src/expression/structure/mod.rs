@@ -5,7 +5,11 @@
 mod blame;
 mod curvature;
 mod interval;
+mod line;
 mod log_curvature;
+mod logarithm;
+mod norm;
+mod product;
 mod quadratic;
 mod slope;
 #[cfg(test)]
@@ -13,9 +17,11 @@ mod tests;
 
 use super::degree::{Degree, Degrees};
 use super::graph::{Graph, Node, NodeId};
+use super::operators::{Binary, Unary};
 pub use blame::{Wanted, blame};
 pub use curvature::Curvature;
 pub use interval::Interval;
+pub use line::Line;
 pub use slope::Slope;
 
 /// What is known of one node.
@@ -28,6 +34,11 @@ pub struct Structure {
     /// How its logarithm bends in the logarithms of the inputs (for positive inputs): monomials are `Affine`, posynomials
     /// `Convex`. `Unknown` where it may be negative.
     pub log_curvature: Curvature,
+    /// How its logarithm bends in the inputs themselves: exponentials of affine functions are `Affine`. `Unknown` where it may be
+    /// negative.
+    pub logarithm: Curvature,
+    /// Whether it depends on one input alone, and whether it rises or falls in it.
+    pub line: Line,
 }
 
 /// The structure of every node, given the ranges of inputs and data by slot (missing ones: nothing known).
@@ -43,15 +54,20 @@ pub struct Structure {
 /// ```
 pub fn analyse(graph: &Graph, inputs: &[Interval], data: &[Interval]) -> Vec<Structure> {
     let degrees = Degrees::new(graph);
-    let inner = inner_quadratics(graph, &degrees);
+    let inner = inner_sums(graph);
     let mut known: Vec<Structure> = Vec::with_capacity(graph.len());
     for id in 0..graph.len() {
         let node = graph.node(id as NodeId);
         let interval = range(node, inputs, data, &known);
         let log_curvature = log_curvature::log_curvature(node, interval, degrees.of(id as NodeId) == Degree::Constant, &known);
-        let curvature = curvature::curvature(graph, node, interval, &known);
-        known.push(Structure { interval, curvature, log_curvature });
-        if curvature == Curvature::Unknown && degrees.of(id as NodeId) == Degree::Quadratic && !inner[id] {
+        let mut curvature = curvature::curvature(graph, id as NodeId, node, interval, &known);
+        let logarithm = logarithm::logarithm(node, interval, curvature, &known);
+        if curvature == Curvature::Unknown && logarithm.is_convex() {
+            curvature = Curvature::Convex;
+        }
+        let line = line::line(node, interval, &known);
+        known.push(Structure { interval, curvature, log_curvature, logarithm, line });
+        if curvature == Curvature::Unknown && is_sum(node) && !inner[id] {
             known[id].curvature = quadratic::curvature(graph, id as NodeId, &known);
         }
     }
@@ -66,18 +82,30 @@ fn range(node: Node, inputs: &[Interval], data: &[Interval], known: &[Structure]
         Node::Input(slot) => given(inputs, slot),
         Node::Data(slot) => given(data, slot),
         Node::Unary(op, a) => of(a).unary(op),
-        Node::Binary(op, a, b) if a == b && op == super::operators::Binary::Multiply => of(a).power(2.0),
+        Node::Binary(op, a, b) if a == b && op == Binary::Multiply => of(a).power(2.0),
         Node::Binary(op, a, b) => of(a).binary(op, of(b)),
     }
 }
 
-/// Nodes that are part of a larger quadratic form: only the largest is factorised.
-fn inner_quadratics(graph: &Graph, degrees: &Degrees) -> Vec<bool> {
-    let mut inner = vec![false; graph.len()];
-    for id in (0..graph.len() as NodeId).filter(|&id| degrees.of(id) == Degree::Quadratic) {
-        for operand in graph.node(id).operands() {
-            inner[operand as usize] = true;
-        }
+/// Sums, and products with what is constant: what [`quadratic`] sees through, and a product of affine functions itself.
+fn is_sum(node: Node) -> bool {
+    match node {
+        Node::Unary(op, _) => op == Unary::Negate,
+        Node::Binary(op, ..) => matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Power),
+        _ => false,
     }
-    inner
+}
+
+/// Nodes that are part of a larger sum: only the largest is looked at as a whole, and its products with it.
+fn inner_sums(graph: &Graph) -> Vec<bool> {
+    let mut inner = vec![false; graph.len()];
+    let mut outer = vec![false; graph.len()];
+    for id in 0..graph.len() as NodeId {
+        let node = graph.node(id);
+        let adds = matches!(node, Node::Unary(Unary::Negate, _) | Node::Binary(Binary::Add | Binary::Subtract, ..));
+        let target = if adds { &mut inner } else { &mut outer };
+        node.operands().for_each(|operand| target[operand as usize] = true);
+    }
+    // What stands in another place too is looked at by itself.
+    inner.iter().zip(outer).map(|(&inner, outer)| inner && !outer).collect()
 }

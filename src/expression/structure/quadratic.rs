@@ -1,4 +1,4 @@
-//! Convexity of quadratic forms, proved by a factorisation in interval arithmetic.
+//! Convexity of sums with quadratic forms, proved by a factorisation in interval arithmetic.
 
 use std::collections::BTreeMap;
 
@@ -12,35 +12,45 @@ const INPUT_LIMIT: usize = 200;
 /// Symmetric coefficients of products of inputs: (larger slot, smaller slot) → coefficient of the second derivative.
 type Form = BTreeMap<(u32, u32), Interval>;
 
-/// The curvature of a node of degree two by its quadratic form; `Unknown` where no proof is found.
+/// The curvature of a sum: of its quadratic form and, beside it, of what is no product of affine functions. `Unknown` where no
+/// proof is found.
 pub(super) fn curvature(graph: &Graph, root: NodeId, known: &[Structure]) -> Curvature {
-    let Some(form) = form(graph, root, known) else { return Curvature::Unknown };
+    let Some((form, rest)) = form(graph, root, known) else { return Curvature::Unknown };
     let matrix = |sign: f64| dense(&form, sign);
-    if matrix(1.0).is_some_and(is_positive_semidefinite) {
+    if rest.is_convex() && matrix(1.0).is_some_and(is_positive_semidefinite) {
         Curvature::Convex
-    } else if matrix(-1.0).is_some_and(is_positive_semidefinite) {
+    } else if rest.is_concave() && matrix(-1.0).is_some_and(is_positive_semidefinite) {
         Curvature::Concave
     } else {
         Curvature::Unknown
     }
 }
 
-/// The second derivatives of a node.
-fn form(graph: &Graph, root: NodeId, known: &[Structure]) -> Option<Form> {
-    let mut form = Form::new();
+/// The second derivatives of a sum's quadratic terms, and how all its other terms bend together.
+fn form(graph: &Graph, root: NodeId, known: &[Structure]) -> Option<(Form, Curvature)> {
+    let (mut form, mut rest) = (Form::new(), Curvature::Constant);
     for (node, factor) in linear_parts(graph, root, known) {
         let (left, right) = match graph.node(node) {
             Node::Input(_) => continue,
             Node::Binary(Binary::Power, base, exponent) if graph.as_constant(exponent) == Some(2.0) => (base, base),
             Node::Binary(Binary::Multiply, left, right) => (left, right),
-            _ => return None,
+            _ => {
+                rest = rest.plus(known[node as usize].curvature.scaled(factor));
+                continue;
+            }
         };
-        add_product(&mut form, factor, &gradient(graph, left, known)?, &gradient(graph, right, known)?);
+        match (gradient(graph, left, known), gradient(graph, right, known)) {
+            (Some(left), Some(right)) => add_product(&mut form, factor, &left, &right),
+            _ => rest = rest.plus(known[node as usize].curvature.scaled(factor)),
+        }
+        if rest == Curvature::Unknown {
+            return None;
+        }
         if form.len() > INPUT_LIMIT * (INPUT_LIMIT + 1) / 2 {
             return None;
         }
     }
-    Some(form)
+    Some((form, rest))
 }
 
 /// The inputs of an affine node and their coefficients.

@@ -2,6 +2,8 @@
 //!
 //! Every command that writes an artefact also writes its report beside it as JSON (`lines.obj` → `lines.json`).
 
+mod check;
+mod lines;
 mod solids;
 mod tables;
 
@@ -9,16 +11,19 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+pub use check::{CheckReport, check};
+pub use lines::{RibsReport, ribs_folder, slice_file, trace_file};
 pub use solids::{plot, solids};
 
 use super::closest::Surface;
 use super::formats::{self, FormatError, ending};
+use super::graph::{self, Rule};
 use super::invariants::{Invariants, measure};
-use super::network::{Network, NetworkError};
+use super::network::NetworkError;
 use super::section::{self, PieceReport, Plane};
 use super::stations::StationError;
 use super::weld::{WeldReport, weld};
-use super::{Defect, Defects, PolygonMesh, QuadMesh, generate, reconstruct, ribs, smooth, stations, trace};
+use super::{Defects, PolygonMesh, QuadMesh, generate, reconstruct, ribs, smooth};
 
 /// Whatever stops a command; the message says what, where and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -50,71 +55,49 @@ pub enum CommandError {
 
 type Outcome<T> = Result<T, CommandError>;
 
-/// A mesh file, and whether its vertices are to be welded first.
-#[derive(Debug, Clone, PartialEq)]
+/// A file of a mesh or of lines, and what is to be done with it first.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     /// The file.
     pub path: PathBuf,
     /// Join vertices within this distance; `None`: as they are.
     pub weld: Option<f64>,
+    /// How edges are joined to lines.
+    pub rule: Rule,
 }
 
 impl Source {
     fn polygons(&self) -> Outcome<(PolygonMesh, Option<WeldReport>)> {
-        let mesh = formats::read(&self.path)?;
-        match self.weld {
-            None => Ok((mesh, None)),
+        let mut mesh = formats::read(&self.path)?;
+        let report = match self.weld {
+            None => None,
             Some(tolerance) if tolerance > 0.0 && tolerance.is_finite() => {
-                let (mesh, report) = weld(mesh, tolerance);
-                Ok((mesh, Some(report)))
+                let (welded, report) = weld(mesh, tolerance);
+                mesh = welded;
+                Some(report)
             }
-            Some(tolerance) => Err(CommandError::Weld(tolerance)),
+            Some(tolerance) => return Err(CommandError::Weld(tolerance)),
+        };
+        let repeated = mesh.drop_repeated_corners();
+        if repeated > 0 {
+            mesh.notes.push(format!("{repeated} faces repeat a corner; they count with the corners that are left"));
         }
+        graph::settle_flags(&mut mesh);
+        if mesh.face_count() > 0 && mesh.ribs.is_empty() && mesh.faces().all(|face| face.len() == 3) {
+            let note = "every face is a triangle, and every edge counts as a rib, diagonals too; if the mesh was triangulated when it \
+                        was exported, export the quads, or flag the edges that carry ribs (OBJ l elements)";
+            mesh.notes.push(note.into());
+        }
+        Ok((mesh, report))
     }
 
     fn quads(&self) -> Outcome<QuadMesh> {
-        let defects = |cause| CommandError::Defects { path: self.path.display().to_string(), cause };
-        QuadMesh::new(self.polygons()?.0).map_err(defects)
+        QuadMesh::new(self.polygons()?.0).map_err(|cause| self.defects(cause))
     }
-}
 
-/// What `check` found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CheckReport {
-    /// The file.
-    pub file: String,
-    /// Whether the mesh is a clean quad mesh.
-    pub sound: bool,
-    /// What a weld did, where one was asked for.
-    pub weld: Option<WeldReport>,
-    /// Every defect.
-    pub defects: Vec<Defect>,
-    /// The defects in words, as many as a person reads.
-    pub message: String,
-    /// The numbers of a sound mesh.
-    pub invariants: Option<Invariants>,
-}
-
-/// `mesh check`: defects are the finding here, not an error.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn check(source: &Source) -> Outcome<CheckReport> {
-    let file = source.path.display().to_string();
-    let (mesh, weld) = source.polygons()?;
-    Ok(match QuadMesh::new(mesh) {
-        Ok(mesh) => CheckReport {
-            file,
-            sound: true,
-            weld,
-            defects: Vec::new(),
-            message: "no defects".into(),
-            invariants: Some(measure(&mesh)),
-        },
-        Err(defects) => {
-            CheckReport { file, sound: false, weld, message: defects.to_string(), defects: defects.0, invariants: None }
-        }
-    })
+    fn defects(&self, cause: Defects) -> CommandError {
+        CommandError::Defects { path: self.path.display().to_string(), cause }
+    }
 }
 
 /// A report with the invariants of the mesh that was written.
@@ -163,45 +146,17 @@ fn write_mesh<T: Serialize>(out: &Path, mesh: &QuadMesh, stage: T) -> Outcome<St
     Ok(report)
 }
 
-/// `mesh trace`: lines as OBJ `l` elements, or as CSV `line,closed,point,vertex,x,y,z`.
-///
-/// # Errors
-/// Bad files, defects.
-pub fn trace_file(source: &Source, out: &Path) -> Outcome<trace::TraceReport> {
-    let mesh = source.quads()?;
-    let lines = trace::trace(&mesh);
-    write_file(out, |mut file| match ending(out).as_str() {
-        "obj" => {
-            let named = lines.iter().enumerate().map(|(k, line)| (tables::line_name(k, line), line.vertices.as_slice()));
-            formats::write_lines(&mut file, &mesh.positions, named)
-        }
-        _ => tables::lines(file, &mesh, &lines).map_err(std::io::Error::other),
-    })?;
-    let report = trace::report(&mesh, &lines);
-    write_report(&out.with_extension("json"), &report)?;
-    Ok(report)
-}
-
-/// `mesh slice MESH`: stations as CSV `line,closed,station,vertex,s,x,y,z,tx,ty,tz,nx,ny,nz`.
-///
-/// # Errors
-/// Bad files, defects, undefined frames.
-pub fn slice_file(source: &Source, longest: f64, out: &Path) -> Outcome<stations::StationReport> {
-    let mesh = source.quads()?;
-    let lines = stations::slice(&mesh, &trace::trace(&mesh), longest)?;
-    write_file(out, |file| tables::stations(file, &lines).map_err(std::io::Error::other))?;
-    let report = stations::report(&lines);
-    write_report(&out.with_extension("json"), &report)?;
-    Ok(report)
-}
-
 /// The pieces of one plane section.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SectionReport {
     /// One by one.
     pub pieces: Vec<PieceReport>,
-    /// Their area together.
+    /// The area they cover: of pieces that overlap, of their union.
     pub area: f64,
+    /// What is covered more than once, where solids run through one another.
+    pub overlap: f64,
+    /// What a user should know.
+    pub notes: Vec<String>,
 }
 
 /// `mesh slice SOLID`: pieces as SVG, or as CSV `piece,area,cx,cy,Ix,Iy,Ixy,I1,I2,angle,holes`.
@@ -209,40 +164,35 @@ pub struct SectionReport {
 /// # Errors
 /// Bad files, a face in the plane, open chains.
 pub fn section_file(solid: &Source, plane: &Plane, out: &Path) -> Outcome<SectionReport> {
-    let pieces = section::cut(&solid.polygons()?.0, plane)?;
+    let mesh = solid.polygons()?.0;
+    let pieces = section::cut(&mesh, plane)?;
     let numbers: Vec<PieceReport> = pieces.iter().map(|piece| piece.properties).collect();
     write_file(out, |file| match ending(out).as_str() {
         "svg" => file.write_all(tables::section_svg(&pieces).as_bytes()),
         _ => tables::pieces(file, &numbers).map_err(std::io::Error::other),
     })?;
-    let report = SectionReport { area: numbers.iter().map(|piece| piece.area).sum(), pieces: numbers };
+    let sum: f64 = numbers.iter().map(|piece| piece.area).sum();
+    let area = section::union_area(&pieces).unwrap_or(sum);
+    let report = SectionReport { pieces: numbers, area, overlap: sum - area, notes: section_notes(&mesh, plane, sum, area) };
     write_report(&out.with_extension("json"), &report)?;
     Ok(report)
 }
 
-/// What `ribs_folder` made.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RibsReport {
-    /// The lines.
-    pub trace: trace::TraceReport,
-    /// The segments.
-    pub stations: stations::StationReport,
-    /// The problem.
-    pub problem: ribs::Report,
-}
-
-/// `mesh ribs`: a problem folder; the report goes to its `mesh.json`.
-///
-/// # Errors
-/// Bad files, defects, undefined frames, senseless limits.
-pub fn ribs_folder(source: &Source, longest: f64, options: &ribs::Options, folder: &Path) -> Outcome<RibsReport> {
-    let mesh = source.quads()?;
-    let lines = trace::trace(&mesh);
-    let sliced = stations::slice(&mesh, &lines, longest)?;
-    let problem = ribs::write_problem(&Network::new(&sliced)?, options, folder)?;
-    let report = RibsReport { trace: trace::report(&mesh, &lines), stations: stations::report(&sliced), problem };
-    write_report(&folder.join("mesh.json"), &report)?;
-    Ok(report)
+fn section_notes(mesh: &PolygonMesh, plane: &Plane, sum: f64, area: f64) -> Vec<String> {
+    let mut notes = mesh.notes.clone();
+    if sum == 0.0 {
+        let distances = || mesh.vertices.iter().map(|p| plane.distance(p));
+        let (low, high) = (distances().fold(f64::INFINITY, f64::min), distances().fold(f64::NEG_INFINITY, f64::max));
+        notes.push(format!("the plane misses the solid, which lies between {low:.6} and {high:.6} along its normal from it"));
+    }
+    if sum > area {
+        notes.push(format!(
+            "solids overlap: the pieces have {sum:.6} together, {:.6} of it is covered more than once, and the area is that of \
+             their union",
+            sum - area
+        ));
+    }
+    notes
 }
 
 /// `mesh new`: writes one of the meshes made by formula.

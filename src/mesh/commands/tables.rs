@@ -6,20 +6,20 @@ use std::io::Write;
 use crate::mesh::section::{Piece, PieceReport};
 use crate::mesh::stations::StationLine;
 use crate::mesh::trace::Line;
-use crate::mesh::{NONE, QuadMesh, Vector};
+use crate::mesh::{NONE, Vector};
 
 /// `L3`, or `L3_closed`.
 pub(super) fn line_name(at: usize, line: &Line) -> String {
     format!("L{}{}", at + 1, if line.closed { "_closed" } else { "" })
 }
 
-pub(super) fn lines(out: impl Write, mesh: &QuadMesh, lines: &[Line]) -> Result<(), csv::Error> {
+pub(super) fn lines(out: impl Write, positions: &[Vector], lines: &[Line]) -> Result<(), csv::Error> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record(["line", "closed", "point", "vertex", "x", "y", "z"])?;
     for (at, line) in lines.iter().enumerate() {
         for (point, &v) in line.vertices.iter().enumerate() {
             let head = [format!("L{}", at + 1), line.closed.to_string(), (point + 1).to_string(), (v + 1).to_string()];
-            table.write_record(head.into_iter().chain(numbers([mesh.positions[v as usize]])))?;
+            table.write_record(head.into_iter().chain(numbers([positions[v as usize]])))?;
         }
     }
     Ok(table.flush()?)

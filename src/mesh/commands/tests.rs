@@ -3,7 +3,7 @@ use crate::mesh::network::read_geometry;
 use crate::mesh::solids::SizedRib;
 
 fn source(path: &Path) -> Source {
-    Source { path: path.into(), weld: None }
+    Source { path: path.into(), ..Source::default() }
 }
 
 #[test]
@@ -56,10 +56,11 @@ fn commands_are_deterministic() {
 #[test]
 fn defects_stop_a_stage_and_are_what_check_finds() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("triangles.obj");
-    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").unwrap();
+    let path = folder.path().join("folded.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 1 2 1\n").unwrap();
     let report = check(&source(&path)).unwrap();
-    assert!(!report.sound && report.message.contains("triangulated"));
+    assert!(!report.sound && report.message.contains("face 2"), "{}", report.message);
+    assert_eq!((report.kind, report.invariants.triangles), ("polygon mesh", 2));
     let out = folder.path().join("lines.obj");
     assert!(trace_file(&source(&path), &out).is_err() && !out.exists());
     let missing = check(&source(&folder.path().join("no.obj"))).unwrap_err().to_string();

@@ -1,12 +1,19 @@
-//! Files: OBJ, PLY (ascii and binary), OFF and STL in; OBJ, STL and VTU out. The name's ending decides.
+//! Files: OBJ, PLY (ascii and binary), OFF, STL and, for lines alone, CSV and DXF in; OBJ, STL, VTU, GLB and DXF out. The
+//! name's ending decides. docs/meshes.md lists what of each format is read.
 //!
 //! PLY is read by `ply-rs-bw`, STL read and written by `stl_io`. OBJ and OFF are read here: `tobj` 4.0 numbers vertices anew
 //! per group, so shared vertices are lost, and its errors name no line. VTU is written here: `vtkio` is at 0.7.0-rc2.
 
+mod csv_lines;
+mod dxf_read;
+mod dxf_write;
+mod glb;
 mod lexer;
+mod obj_curve;
 mod obj_read;
 mod obj_write;
 mod off;
+mod off_binary;
 mod ply;
 mod stl;
 mod vtu;
@@ -14,6 +21,10 @@ mod vtu;
 use std::io::Cursor;
 use std::path::Path;
 
+pub use csv_lines::read_csv;
+pub use dxf_read::read_dxf;
+pub use dxf_write::{DxfLine, write_dxf};
+pub use glb::{Node, write_glb};
 pub use obj_read::read_obj;
 pub use obj_write::{write_lines, write_obj};
 pub use off::read_off;
@@ -58,20 +69,25 @@ impl FormatError {
 /// Largest magnitude of a coordinate: its cube is still a number.
 const LARGEST: f64 = 1e100;
 
-/// Reads a mesh; `.obj`, `.ply`, `.off` or `.stl`.
+const READABLE: [&str; 6] = ["obj", "ply", "off", "stl", "csv", "dxf"];
+
+/// Reads a mesh or lines; `.obj`, `.ply`, `.off`, `.stl`, `.csv` or `.dxf`.
 ///
 /// # Errors
 /// Every error names the file and, in text formats, the line.
 pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
     let kind = ending(path);
-    if !["obj", "ply", "off", "stl"].contains(&kind.as_str()) {
-        return Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .ply, .off, .stl" });
+    if !READABLE.contains(&kind.as_str()) {
+        let expected = ".obj, .ply, .off, .stl, .csv, .dxf";
+        return Err(FormatError::Ending { path: path.display().to_string(), expected });
     }
     let bytes = files::read(path).map_err(|cause| FormatError::io(path, cause))?;
     let mesh = match kind.as_str() {
         "obj" => read_obj(bytes.as_slice()),
         "ply" => read_ply(bytes.as_slice()),
         "off" => read_off(bytes.as_slice()),
+        "csv" => read_csv(bytes.as_slice()),
+        "dxf" => read_dxf(bytes.as_slice()),
         _ => read_stl(&mut Cursor::new(bytes)),
     };
     mesh.map_err(|cause| FormatError::In { path: path.display().to_string(), cause: Box::new(cause) })
@@ -86,6 +102,17 @@ pub fn check_writable(path: &Path) -> Result<(), FormatError> {
         return Ok(());
     }
     Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .stl, .vtu" })
+}
+
+/// Whether sized ribs can be written with this ending.
+///
+/// # Errors
+/// Where they cannot.
+pub fn check_ribs_writable(path: &Path) -> Result<(), FormatError> {
+    if ["obj", "stl", "vtu", "glb", "dxf"].contains(&ending(path).as_str()) {
+        return Ok(());
+    }
+    Err(FormatError::Ending { path: path.display().to_string(), expected: ".obj, .stl, .vtu, .glb, .dxf" })
 }
 
 /// Writes a mesh as `.obj`, `.stl` or `.vtu`, with numbers per face for the last.

@@ -1,10 +1,12 @@
 //! PLY, ascii and binary, by `ply-rs-bw`.
 
-use std::io::BufRead;
+use std::borrow::Cow;
+use std::io::Read;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
 
+use super::lexer::{bytes, decode};
 use super::{FormatError, check_numbers, point};
 use crate::mesh::PolygonMesh;
 
@@ -13,8 +15,10 @@ use crate::mesh::PolygonMesh;
 ///
 /// # Errors
 /// What `ply-rs-bw` finds, with the line where the file has lines; missing coordinates; unknown vertices.
-pub fn read_ply(source: impl BufRead) -> Result<PolygonMesh, FormatError> {
-    let mut reader = Reader::new(source);
+pub fn read_ply(source: impl Read) -> Result<PolygonMesh, FormatError> {
+    let bytes = bytes(source)?;
+    let bytes = with_line_feeds(&bytes)?;
+    let mut reader = Reader::new(&*bytes);
     let header = Parser::<Row>::new().read_header(&mut reader).map_err(explain)?;
     check_header(&header)?;
     let mut mesh = PolygonMesh::default();
@@ -26,6 +30,29 @@ pub fn read_ply(source: impl BufRead) -> Result<PolygonMesh, FormatError> {
     }
     check_numbers(&mesh)?;
     Ok(mesh)
+}
+
+/// The file with lines ended by LF alone, and without a byte-order mark; of a binary file the header only.
+fn with_line_feeds(bytes: &[u8]) -> Result<Cow<'_, [u8]>, FormatError> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    if !bytes.starts_with(b"ply") {
+        // UTF-16, or no PLY at all, which the library names.
+        return Ok(Cow::Owned(decode(bytes)?.replace("\r\n", "\n").replace('\r', "\n").into_bytes()));
+    }
+    let end: &[u8] = match bytes.get(3..) {
+        Some([b'\r', b'\n', ..]) => b"\r\n",
+        Some([b'\r', ..]) => b"\r",
+        _ => return Ok(Cow::Borrowed(bytes)),
+    };
+    let last = [b"end_header", end].concat();
+    let Some(at) = bytes.windows(last.len()).position(|window| window == last) else { return Ok(Cow::Borrowed(bytes)) };
+    let (header, body) = bytes.split_at(at + last.len());
+    let header = String::from_utf8_lossy(header).replace("\r\n", "\n").replace('\r', "\n");
+    let body = match header.contains("format ascii") {
+        true => String::from_utf8_lossy(body).replace("\r\n", "\n").replace('\r', "\n").into_bytes(),
+        false => body.to_vec(),
+    };
+    Ok(Cow::Owned([header.into_bytes(), body].concat()))
 }
 
 /// An element without properties takes no bytes, so that a lie about its count would never end.

@@ -100,6 +100,27 @@ fn hostile() -> impl Strategy<Value = Vec<u8>> {
         "facet normal 0 0 1\n",
         "outer loop\n",
         "vertex 0 0 0\n",
+        "cstype bspline\n",
+        "cstype rat bezier\n",
+        "deg 2\n",
+        "curv 0 1 ",
+        "parm u 0 0 1 1 ",
+        "end\n",
+        "COFF BINARY\n",
+        "0\n",
+        "10\n",
+        "20\n",
+        "70\n",
+        "SECTION\n",
+        "ENTITIES\n",
+        "LINE\n",
+        "VERTEX\n",
+        "LWPOLYLINE\n",
+        "x0,y0,x1,y1\n",
+        "line,x,y\n",
+        ",",
+        "\r",
+        "\0",
         "#",
         "/",
         "é",
@@ -115,6 +136,11 @@ proptest! {
         let _ = read_off(bytes.as_slice());
         let _ = read_ply(bytes.as_slice());
         let _ = read_stl(&mut Cursor::new(&bytes));
+        let _ = read_csv(bytes.as_slice());
+        let _ = read_dxf(bytes.as_slice());
+        let _ = read_dxf([b"0\nSECTION\n2\nENTITIES\n".as_slice(), &bytes].concat().as_slice());
+        let _ = read_csv([b"line,x,y,z\n".as_slice(), &bytes].concat().as_slice());
+        let _ = read_obj([b"v 0 0 0\nv 1 0 0\nv 1 1 0\n".as_slice(), &bytes].concat().as_slice());
         let _ = read_off([b"OFF\n".as_slice(), &bytes].concat().as_slice());
         let _ = read_ply([b"ply\nformat ascii 1.0\n".as_slice(), &bytes].concat().as_slice());
     }
@@ -122,8 +148,16 @@ proptest! {
     #[test]
     fn whatever_reads_is_checked_without_panic(faces in prop::collection::vec(prop::array::uniform4(0u32..8), 0..8)) {
         let vertices = (0..8).map(|i| Vector::new(f64::from(i % 2), f64::from(i / 2 % 2), f64::from(i / 4))).collect();
-        if let Ok(mesh) = crate::mesh::QuadMesh::new(PolygonMesh::from_quads(vertices, &faces)) {
-            prop_assert!(crate::mesh::invariants::measure(&mesh).valence_identity);
+        let mesh = PolygonMesh::from_quads(vertices, &faces);
+        let measured = crate::mesh::invariants::measure_any(&mesh);
+        let _ = crate::mesh::graph::Graph::new(mesh.clone(), crate::mesh::graph::Rule::Auto).map(|graph| graph.lines());
+        if let Ok(mesh) = crate::mesh::QuadMesh::new(mesh) {
+            let exact = crate::mesh::invariants::measure(&mesh);
+            prop_assert!(exact.valence_identity && measured.valence_identity);
+            prop_assert_eq!(
+                (exact.valence_sum, exact.components, exact.boundary_loops.iter().sum::<usize>()),
+                (measured.valence_sum, measured.components, measured.boundary_loops.iter().sum::<usize>())
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What each kind of section brings along: dimensions with default bounds, and limits on its proportions.
 
-use super::Bounds;
+use super::{Bounds, Unit};
 
 /// Kinds of sections ribs can be given: those that need no points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,10 +57,24 @@ impl SectionKind {
         SectionKind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Its dimensions with default bounds and starts, in metres.
-    pub(super) fn dimensions(self) -> Vec<Bounds> {
-        let bounds = |&(name, lower, upper, start): &Dimension| Bounds { dimension: name.into(), lower, upper, start };
+    /// Its dimensions with default bounds and starts, in this unit.
+    pub(super) fn dimensions(self, unit: Unit) -> Vec<Bounds> {
+        let bounds = |&(name, lower, upper, start): &Dimension| {
+            // An exponent has no unit.
+            let metres = if name == EXPONENT { 1.0 } else { unit.metres() };
+            Bounds { dimension: name.into(), lower: lower / metres, upper: upper / metres, start: start / metres }
+        };
         self.row().dimensions.iter().map(bounds).collect()
+    }
+
+    /// The dimension that is its height, and how often: `b` of a superellipse is half of it.
+    pub(super) fn height(self) -> (&'static str, f64) {
+        match self {
+            SectionKind::Rectangle | SectionKind::Box => ("h", 1.0),
+            SectionKind::HBeam | SectionKind::Tee => ("hw", 1.0),
+            SectionKind::Circle | SectionKind::Tube => ("d", 1.0),
+            SectionKind::Superellipse => ("b", 2.0),
+        }
     }
 
     /// Names and requirements of the limits on a section's proportions, in `slenderness` and `thickness`.
@@ -131,6 +145,9 @@ impl SectionKind {
         }
     }
 }
+
+/// The superellipse's.
+pub(super) const EXPONENT: &str = "r";
 
 const FLANGED: &[Dimension] =
     &[("tw", 0.004, 0.05, 0.01), ("hw", 0.04, 1.5, 0.3), ("b", 0.03, 0.5, 0.15), ("tf", 0.004, 0.05, 0.015)];

@@ -3,11 +3,18 @@
 //!
 //! Every line counts as a simply supported beam under a line load q: its sag at midspan, by the unit-load method
 //! ∫ M·m/(E·I) ds, may be at most span/sag_ratio. The integral is `sag` per rib, with 1/I by the trapezoidal rule between
-//! its sections. A closed line counts as two beams of half its length. Slenderness, taper and thickness limits come on top.
+//! its sections. Slenderness, taper and thickness limits come on top.
+//!
+//! A closed line has no ends to be held at, so it is held at any two opposite points: two beams of half its length S. Where these points are
+//! is nobody's choice, so the limit is on the mean over all of them and over both halves: every point of the ring has the
+//! mean weight (1/S)·∫ M·m ds = 5S³/384, and the sag is ½·q·5S³/384·∮ ds/(E·I), which does not depend on where the file begins the
+//! ring. A uniform ring sags by exactly what each of its halves does as a beam: 5qS⁴/(384EI).
 
 mod folder;
 mod kinds;
 mod text;
+mod unit;
+mod warnings;
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -16,6 +23,7 @@ use std::path::Path;
 use serde::Serialize;
 
 pub use kinds::SectionKind;
+pub use unit::Unit;
 
 use super::formats::FormatError;
 use super::network::{Network, Rib, write_geometry};
@@ -33,11 +41,13 @@ pub struct Bounds {
     pub start: f64,
 }
 
-/// What the problem is to be. Defaults are metres and kilonewtons, steel.
+/// What the problem is to be. Defaults are steel, in kilonewtons and the unit of length; all numbers are in these.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// The section kind.
     pub kind: SectionKind,
+    /// The unit of length; `None`: not said, the defaults are for metres.
+    pub unit: Option<Unit>,
     /// Bounds that replace the kind's own.
     pub bounds: Vec<Bounds>,
     /// The volume law of all ribs: `frustum` or `prismatoid`.
@@ -65,18 +75,25 @@ pub struct Options {
 pub const FILES: [&str; 4] = ["problem.toml", "sections.csv", "ribs.csv", "geometry.csv"];
 
 impl Options {
-    /// The defaults for a kind.
+    /// The defaults for a kind, in metres.
     pub fn of(kind: SectionKind) -> Self {
+        Options::with_unit(kind, None)
+    }
+
+    /// The defaults for a kind: the same steel and loads, in this unit.
+    pub fn with_unit(kind: SectionKind, unit: Option<Unit>) -> Self {
+        let metres = unit.unwrap_or(Unit::Metre).metres();
         Options {
             kind,
+            unit,
             bounds: Vec::new(),
             prismatoid: true,
-            elastic_modulus: 210e6,
-            load: 5.0,
+            elastic_modulus: 210e6 * (metres * metres),
+            load: 5.0 * metres,
             sag_ratio: 300.0,
             slenderness: 8.0,
             taper_slope: 0.1,
-            thickness: kind.thickness(),
+            thickness: kind.thickness() / metres,
             title: "Ribs of a quad mesh".into(),
             force: false,
         }
@@ -122,6 +139,8 @@ pub struct Report {
     pub length: f64,
     /// SHA-256 of every file, by which edited ones are known.
     pub written: BTreeMap<String, String>,
+    /// Bounds that do not fit the spans.
+    pub warnings: Vec<String>,
 }
 
 /// Writes the folder.
@@ -156,6 +175,7 @@ pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Res
         lines: lines.len(),
         length: network.ribs.iter().map(|rib| rib.geometry.length()).sum(),
         written,
+        warnings: warnings::find(network, options, &bounds),
     })
 }
 
@@ -170,7 +190,7 @@ fn checked_bounds(options: &Options) -> Result<Vec<Bounds>, RibsError> {
     positive("the slenderness", options.slenderness)?;
     positive("the taper slope", options.taper_slope)?;
     positive("the thickness", options.thickness)?;
-    let mut bounds = options.kind.dimensions();
+    let mut bounds = options.kind.dimensions(options.unit.unwrap_or(Unit::Metre));
     for own in &options.bounds {
         positive(&format!("the lower bound of {}", own.dimension), own.lower)?;
         positive(&format!("the upper bound of {}", own.dimension), own.upper)?;
@@ -212,20 +232,24 @@ fn write_ribs(out: &mut dyn Write, network: &Network, options: &Options) -> Resu
     Ok(table.flush()?)
 }
 
-/// The span of the rib's line as a beam.
+/// The span of the rib's line as a beam; half of a closed one.
 fn span(rib: &Rib) -> f64 {
     if rib.closed { rib.line_length / 2.0 } else { rib.line_length }
 }
 
 /// ∫ M·m ds over the rib, with M = s(S−s)/2 under a unit line load and m = min(s, S−s)/2 under a unit load at midspan;
-/// Simpson's rule over eight parts.
+/// Simpson's rule over eight parts. On a closed line the mean of that over all positions, for one of its two halves.
 fn sag(rib: &Rib) -> f64 {
     let span = span(rib);
+    let length = rib.s[1] - rib.s[0];
+    if rib.closed {
+        return 5.0 * span.powi(3) / 384.0 * (length / 2.0);
+    }
     let product = |s: f64| {
-        let s = if rib.closed { s % span } else { s.clamp(0.0, span) };
+        let s = s.clamp(0.0, span);
         s * (span - s) / 2.0 * s.min(span - s) / 2.0
     };
-    let (from, step) = (rib.s[0], (rib.s[1] - rib.s[0]) / 8.0);
+    let (from, step) = (rib.s[0], length / 8.0);
     let weight = |k: u32| if k == 0 || k == 8 { 1.0 } else { 2.0 + 2.0 * f64::from(k % 2) };
     (0..=8).map(|k| weight(k) * product(from + step * f64::from(k))).sum::<f64>() * step / 3.0
 }

@@ -43,3 +43,30 @@ fn senseless_options_are_errors() {
     let bounds = vec![Bounds { dimension: "tf".into(), lower: 1.0, upper: 2.0, start: 1.0 }];
     assert_eq!(error(Options { bounds, ..Default::default() }), "rectangle has no dimension 'tf'; it has b, h");
 }
+
+#[test]
+fn a_ring_has_the_sag_of_one_half_wherever_it_begins() {
+    let (_, network) = network(generate::cube(3));
+    let rings: Vec<&Rib> = network.ribs.iter().filter(|rib| rib.closed).collect();
+    for line in ["L13", "L18"] {
+        let own = rings.iter().filter(|rib| rib.geometry.line == line);
+        let (sum, span) = own.fold((0.0, 0.0), |(sum, _), rib| (sum + sag(rib), span(rib)));
+        assert!((sum / (5.0 * span.powi(4) / 384.0) - 1.0).abs() < 1e-12, "{line}: {sum}");
+    }
+    assert!(rings.windows(2).all(|pair| sag(pair[0]) == sag(pair[1])), "every part of a ring has the same weight");
+}
+
+#[test]
+fn units_leave_the_same_bounds_and_loads() {
+    for unit in Unit::ALL {
+        let (own, metres) = (Options::with_unit(SectionKind::Tube, Some(unit)), unit.metres());
+        let same = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12, "{value} {expected}");
+        same(own.thickness * metres, 0.004);
+        same(own.load / metres, 5.0);
+        same(own.elastic_modulus / (metres * metres), 210e6);
+        assert_eq!(Unit::parse(unit.name()), Some(unit));
+        let superellipse = SectionKind::Superellipse.dimensions(unit);
+        same(superellipse[0].lower * metres, 0.01);
+        assert_eq!(superellipse[2].lower, 2.5);
+    }
+}

@@ -30,7 +30,11 @@ pub(super) fn problem(options: &Options) -> String {
         ("taper_slope", options.taper_slope),
         ("thickness", options.thickness),
     ];
-    let _ = write!(text, "title = {title}\nminimize = \"volume\"\n\n[parameters]\n");
+    let _ = write!(text, "title = {title}\nminimize = \"volume\"\n");
+    if let Some(unit) = options.unit {
+        let _ = writeln!(text, "units = {{ length = \"{}\", force = \"kN\" }}", unit.name());
+    }
+    let _ = write!(text, "\n[parameters]\n");
     // A circle has no slenderness.
     for (name, value) in parameters.iter().filter(|(name, _)| limits.iter().any(|limit| limit.2.contains(name))) {
         let _ = writeln!(text, "{name} = {value:?}");

@@ -5,6 +5,7 @@
 
 mod chains;
 mod plane;
+mod union;
 
 use std::cmp::Ordering;
 
@@ -80,6 +81,11 @@ pub fn cut(solid: &PolygonMesh, plane: &Plane) -> Result<Vec<Piece>, SectionErro
     let above: Vec<bool> = sides.iter().map(|side| side.is_ge()).collect();
     let rings = chains::rings(solid, plane, &above)?;
     pieces(rings)
+}
+
+/// The area of the union of pieces that overlap, as those of solids that run through one another; `None` where none do.
+pub fn union_area(pieces: &[Piece]) -> Option<f64> {
+    union::area(pieces)
 }
 
 /// Outer rings turn counter-clockwise, holes clockwise; a hole belongs to the smallest outer ring around it.

@@ -33,6 +33,13 @@ pub struct SizedRib {
     pub model_volume: Option<f64>,
 }
 
+impl SizedRib {
+    /// The mean of its ends' areas.
+    pub fn mean_area(&self) -> f64 {
+        (area(&self.rings[0]) + area(&self.rings[1])) / 2.0
+    }
+}
+
 /// All solids in one mesh, with their numbers per face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solids {
@@ -138,7 +145,7 @@ impl Builder {
         self.mesh.vertices.extend_from_slice(&solid.vertices);
         self.mesh.groups.push(format!("{} {}", rib.geometry.name, utilisation_class(rib.utilisation)));
         let group = self.mesh.groups.len() as u32 - 1;
-        let mean_area = (area(&rib.rings[0]) + area(&rib.rings[1])) / 2.0;
+        let mean_area = rib.mean_area();
         for face in solid.faces() {
             let face: Vec<u32> = face.iter().map(|v| v + first).collect();
             self.mesh.push_face(&face);

@@ -83,14 +83,24 @@ impl<'a> Survey<'a> {
         self.shapes.iter().all(|shape| shape.weight.lower > 0.0 && shape.range().lower > 0.0)
     }
 
+    /// A variable's name; of an auxiliary what it stands for.
+    fn named(&self, variable: u32) -> String {
+        let own = self.problem.variables.lower.len() - self.problem.auxiliaries.len();
+        let Some(auxiliary) = (variable as usize).checked_sub(own).and_then(|at| self.problem.auxiliaries.get(at)) else {
+            return self.problem.variable_name(variable as usize);
+        };
+        let mut lowering = Lowering::new(self.problem);
+        let root = lowering.formula(&auxiliary.formula, Context::GLOBAL);
+        let inner = |slot: u32| self.problem.variable_name(lowering.variables[slot as usize] as usize);
+        display(&lowering.graph, root, &inner, &|slot| lowering.numbers[slot as usize].to_string())
+    }
+
     /// The term that stands in the way of a property, in words.
     pub fn blame(&self, wanted: Wanted) -> Option<String> {
         self.shapes.iter().find_map(|shape| {
             let structures = shape.structures();
             let node = blame(&shape.graph, &structures, shape.root, wanted)?;
-            let variable = |slot: u32| {
-                shape.variables.get(slot as usize).map_or("?".into(), |&variable| self.problem.variable_name(variable as usize))
-            };
+            let variable = |slot: u32| shape.variables.get(slot as usize).map_or("?".into(), |&variable| self.named(variable));
             let number = |slot: u32| shape.numbers.get(slot as usize).map_or("?".into(), |number| number.to_string());
             Some(display(&shape.graph, node, &variable, &number))
         })
