@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use ribopt::backends::nlopt::Nlopt;
 use ribopt::backends::{Backend, Job, Solution};
-use ribopt::model::pattern::Pattern;
+use ribopt::linear_algebra::Pattern;
 use ribopt::model::{Budget, EvaluationError, Meta, Model};
 
 /// Evaluations of one run: ISRES needs 20(n + 1) for one generation.
@@ -127,6 +127,7 @@ impl Battery {
             lower: bound(0),
             upper: bound(1),
             start: (0..n).map(|j| if j < shape.free { 0.5f64.clamp(shape.bounds[0], shape.bounds[1]) } else { 1.0 }).collect(),
+            typical: Vec::new(),
             row_lower: (0..m).map(lower_limit).collect(),
             row_upper: vec![0.0; m],
             row_is_linear: vec![matches!(shape.values, Values::Dependent | Values::Inconsistent); m],
