@@ -140,7 +140,8 @@ impl<'a> Certifier<'a> {
         let found = multipliers::find(point, witness);
         let mut certificate = self.first_order(point, &found, feasibility);
         if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
-            point.look_about();
+            // Without second derivatives the slope alone has to do.
+            point.add_curvature().unwrap_or_default();
             certificate = self.first_order(point, &found, feasibility);
         }
         (found, certificate)
@@ -240,9 +241,16 @@ impl<'a> Certifier<'a> {
         if self.class.is_global() {
             return Hessian::of(point, multipliers);
         }
-        point.look_about();
-        let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
-        point.resize_by_curvature(|j| diagonal[j]);
+        point.add_curvature()?;
+        let (about, scale) = (point.slope_about(), point.scale());
+        if about > 0.0 {
+            let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
+            point.resize_by_curvature(|j| diagonal[j] * scale, about);
+            point.add_curvature()?;
+        }
+        if point.sigma == 0.0 {
+            point.sigma = about;
+        }
         Hessian::of(point, multipliers)
     }
 

@@ -44,7 +44,7 @@ pub(super) struct Point<'a> {
     pub(super) sizes: Vec<f64>,
     /// d_j as it was before curvature had a say.
     plain_sizes: Vec<f64>,
-    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::look_about`].
+    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::add_curvature`].
     pub(super) sigma: f64,
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
@@ -72,22 +72,47 @@ impl<'a> Point<'a> {
         Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, plain_sizes, sigma, slopes, terms, mean_slopes })
     }
 
-    /// Where the objective is nearly stationary by itself, its slope at x measures nothing; that about x does.
-    pub(super) fn look_about(&mut self) {
-        self.sigma = self.sigma.max(scales::slope_about(self.origin, self.x, &self.sizes));
+    /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes
+    /// does: max_j Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k, the slope one size away.
+    pub(super) fn add_curvature(&mut self) -> Result<(), EvaluationError> {
+        let meta = self.meta();
+        if meta.objective_is_linear {
+            return Ok(());
+        }
+        let mut values = vec![0.0; meta.hessian.len()];
+        self.origin.model.hessian(self.x, 1.0, &vec![0.0; meta.rows()], &mut values)?;
+        let mut slopes = vec![0.0; self.x.len()];
+        for ((row, column), value) in meta.hessian.iter().zip(values) {
+            let bend = (value * self.sizes[row] * self.sizes[column]).abs();
+            slopes[row] += bend;
+            if row != column {
+                slopes[column] += bend;
+            }
+        }
+        let steepest = slopes.into_iter().fold(0.0, f64::max);
+        if steepest.is_finite() {
+            self.sigma = self.sigma.max(steepest);
+        }
+        Ok(())
+    }
+
+    /// How steep the objective is about x; see [`scales::slope_about`].
+    pub(super) fn slope_about(&self) -> f64 {
+        scales::slope_about(self.origin, self.x, &self.sizes)
     }
 
     /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
     /// one, where it is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the
-    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j²/σ. Others keep theirs.
-    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
+    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j², `slope` what
+    /// it is to be one of. Others keep theirs.
+    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64, slope: f64) {
         self.plain_sizes.clone_from(&self.sizes);
         let mut tried = 0;
         for (j, size) in self.sizes.iter_mut().enumerate() {
-            let bend = bend(j).abs();
+            let bend = bend(j).abs() / slope;
             if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() && tried < RESIZABLE {
                 tried += 1;
-                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * self.sigma / *size) {
+                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * slope / *size) {
                     *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
                 }
             }
