@@ -302,8 +302,9 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
     }
     let rest = point.row_gradient(&multipliers.rows);
     let slope = |j: usize| {
-        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j] / point.sigma).abs();
-        (slope - rounding.map_or(0.0, |rounding| rounding[j])).max(0.0)
+        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j]).abs();
+        let explained = rounding.map_or(0.0, |rounding| rounding[j] * point.sigma);
+        (slope - explained).max(0.0) / point.scale_of(j)
     };
     (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
 }

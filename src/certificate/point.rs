@@ -46,6 +46,9 @@ pub(super) struct Point<'a> {
     plain_sizes: Vec<f64>,
     /// σ: ‖D∇f(x)‖∞, or more, see [`Point::add_curvature`].
     pub(super) sigma: f64,
+    /// ‖D∇f(x)‖∞, and Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k variable by variable where that has been looked at.
+    steepest: f64,
+    bends: Vec<f64>,
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
@@ -68,8 +71,22 @@ impl<'a> Point<'a> {
         let sigma = largest(&gradient, &sizes);
         let slopes = slopes(meta, &jacobian, &sizes);
         let terms = scales::row_terms(meta, x, &jacobian);
-        let (plain_sizes, mean_slopes) = (Vec::new(), OnceLock::new());
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, plain_sizes, sigma, slopes, terms, mean_slopes })
+        Ok(Point {
+            origin,
+            x,
+            objective,
+            gradient,
+            rows,
+            jacobian,
+            sizes,
+            plain_sizes: Vec::new(),
+            sigma,
+            steepest: sigma,
+            bends: Vec::new(),
+            slopes,
+            terms,
+            mean_slopes: OnceLock::new(),
+        })
     }
 
     /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes
@@ -89,11 +106,19 @@ impl<'a> Point<'a> {
                 slopes[column] += bend;
             }
         }
-        let steepest = slopes.into_iter().fold(0.0, f64::max);
+        let steepest = slopes.iter().copied().fold(0.0, f64::max);
         if steepest.is_finite() {
             self.sigma = self.sigma.max(steepest);
+            self.bends = slopes;
         }
         Ok(())
+    }
+
+    /// What a slope along variable j is measured by: curvature counts for the variables that it bends alone, so that one whose
+    /// size is far off hides nothing of the others.
+    pub(super) fn scale_of(&self, j: usize) -> f64 {
+        let own = self.bends.get(j).map_or(self.sigma, |bend| bend.max(self.steepest));
+        if own > 0.0 { own } else { self.scale() }
     }
 
     /// How steep the objective is about x; see [`scales::slope_about`].
