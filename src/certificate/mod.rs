@@ -37,6 +37,10 @@ pub use types::{Certificate, Scope, Side, Tolerances};
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
 const REFINABLE: f64 = 1e-2;
 
+/// The slope about a point counts up to so many times that at the point, which makes every direction there a flat one: a function
+/// as steep as x⁶⁰ has any slope about it.
+const PROPORTION: f64 = 1e3;
+
 /// Certifies `x`. `guess`, a solver's row multipliers, is a witness: tried first, and worth what the residuals computed from it
 /// say.
 ///
@@ -248,9 +252,9 @@ impl<'a> Certifier<'a> {
             point.resize_by_curvature(|j| diagonal[j] * scale, about);
             point.add_curvature()?;
         }
-        if point.sigma == 0.0 {
-            point.sigma = about;
-        }
+        // Beside an inflection the curvature is as small as the slope: what is steep about the point shows how flat that is.
+        let most = if point.sigma > 0.0 { PROPORTION * point.sigma } else { f64::INFINITY };
+        point.sigma = point.sigma.max(about.min(most));
         Hessian::of(point, multipliers)
     }
 
