@@ -158,16 +158,14 @@ fn compared(subject: &Subject, name: &str, count: usize, complaints: &mut Vec<St
             }
         }
         let meta = model.meta();
-        for i in rows.len()..own_rows.len() {
-            if violation(meta.row_lower[i], meta.row_upper[i], own_rows[i])
-                > ROUNDING * full.iter().fold(1.0, |m, v| v.abs().max(m))
-            {
-                complain(format!("auxiliary row {i} is violated: {}", own_rows[i]));
+        for (i, &row) in own_rows.iter().enumerate().skip(rows.len()) {
+            if violation(meta.row_lower[i], meta.row_upper[i], row) > ROUNDING * full.iter().fold(1.0, |m, v| v.abs().max(m)) {
+                complain(format!("auxiliary row {i} is violated: {row}"));
             }
         }
-        for j in x.len()..full.len() {
-            if violation(meta.lower[j], meta.upper[j], full[j]) > ROUNDING {
-                complain(format!("auxiliary {j} is outside its bounds: {}", full[j]));
+        for (j, &value) in full.iter().enumerate().skip(x.len()) {
+            if violation(meta.lower[j], meta.upper[j], value) > ROUNDING {
+                complain(format!("auxiliary {j} is outside its bounds: {value}"));
             }
         }
         if let Some(other) = subject.substitution() {

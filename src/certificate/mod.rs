@@ -257,12 +257,13 @@ impl<'a> Certifier<'a> {
     /// # Errors
     /// The model has no value or derivative at `x`.
     pub fn second_order_by_every_test(&self, x: &[f64]) -> Result<[SecondOrder; 3], EvaluationError> {
-        let point = Point::new(&self.origin, x)?;
+        let mut point = Point::new(&self.origin, x)?;
         let multipliers = multipliers::find(&point, None);
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
         let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
         let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
-        Ok(second_order::by_every_test(&point, &active, &Hessian::of(&point, &multipliers)?))
+        let hessian = self.hessian(&mut point, &multipliers)?;
+        Ok(second_order::by_every_test(&point, &active, &hessian))
     }
 
     fn is_stationary(&self, certificate: &Certificate) -> bool {

@@ -62,7 +62,7 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
     let best = match work.least_violation(&all, start)? {
         Least::Feasible(z) if known => work.relax(&all, &z)?,
         Least::Feasible(z) => return Some(Elasticity::Feasible(work.outward(&z))),
-        Least::Violation(best) => work.in_own_scales(&all, best),
+        Least::Violation(best) => work.in_own_scales(&all, *best),
     };
     let proved = known || work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
     if !proved && !best.certificate.certified {
@@ -102,7 +102,7 @@ impl Relaxed {
 /// Where the elastic phase ended.
 enum Least {
     Feasible(Vec<f64>),
-    Violation(Relaxed),
+    Violation(Box<Relaxed>),
 }
 
 impl<'a> Work<'a> {
@@ -190,7 +190,7 @@ impl<'a> Work<'a> {
                 best = Some(relaxed);
             }
         }
-        best.map(Least::Violation)
+        best.map(|best| Least::Violation(Box::new(best)))
     }
 
     /// The elastic minimum over these rows by the first backend that proves it, else the lowest.

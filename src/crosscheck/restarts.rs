@@ -220,9 +220,9 @@ pub(super) fn to_better_points(ledger: &mut Ledger<'_, '_>, answers: &mut [Answe
         let Some(best) = verdict::best(session, answers).filter(|&best| answers[best].is_certified()) else { return };
         let Some(lower) = verdict::better_elsewhere(session, answers, &answers[best]) else { return };
         let better = answers[lower].clone();
-        for k in 0..answers.len() {
-            if k != lower && answers[k].is_certified() && merit::is_lower(session, &better, &answers[k]) {
-                bring(ledger, k, &mut answers[k], &better);
+        for (k, answer) in answers.iter_mut().enumerate() {
+            if k != lower && answer.is_certified() && merit::is_lower(session, &better, answer) {
+                bring(ledger, k, answer, &better);
             }
         }
     }
@@ -235,7 +235,7 @@ fn bring(ledger: &mut Ledger<'_, '_>, k: usize, answer: &mut Answer, better: &An
     };
     let mut next = next.unwrap_or_else(|| answer.clone());
     let stays_above = !next.feasible || next.objective > better.objective;
-    if stays_above && !(next.is_certified() && !merit::is_lower(ledger.session, better, &next)) {
+    if stays_above && (!next.is_certified() || merit::is_lower(ledger.session, better, &next)) {
         (next.solution.x, next.solution.multipliers) = (better.solution.x.clone(), None);
         ledger.session.judge_again(&mut next);
     }

@@ -133,7 +133,7 @@ fn panic_text(payload: &(dyn Any + Send)) -> String {
 
 /// What is no number, or so large that NLopt's arithmetic would overflow on it, does not reach NLopt.
 fn within_range(term: &str, values: &[f64]) -> Result<(), EvaluationError> {
-    match values.iter().find(|value| !(value.abs() <= LARGEST)) {
+    match values.iter().find(|value| value.is_nan() || value.abs() > LARGEST) {
         None => Ok(()),
         Some(value) => Err(EvaluationError::Invalid {
             term: term.into(),

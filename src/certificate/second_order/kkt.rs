@@ -137,7 +137,7 @@ impl<'a> Kkt<'a> {
         let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
         let singles = p.min(most.saturating_sub(quadrants));
         for k in 0..quadrants + singles {
-            let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))) % 2 == 0 || k == 0 { 1.0 } else { -1.0 };
+            let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))).is_multiple_of(2) || k == 0 { 1.0 } else { -1.0 };
             let start = |at: usize| match k.checked_sub(quadrants) {
                 None => sign(at) * scattered(at),
                 Some(single) if at == single * p / singles => 1.0,

@@ -86,11 +86,10 @@ fn rounded(value: f64, up: bool) -> f64 {
     // A hair of the value is rounding, no reason for the next digit.
     let hair = if up { -1e-12 } else { 1e-12 } * value.abs();
     let factor = 10f64.powi(digits.abs());
-    let (times, back): (fn(f64, f64) -> f64, fn(f64, f64) -> f64) =
-        if digits >= 0 { (|a, b| a * b, |a, b| a / b) } else { (|a, b| a / b, |a, b| a * b) };
-    let scaled = times(value + hair, factor);
+    // The power of ten itself, not its reciprocal, which is rounded.
+    let scaled = if digits >= 0 { (value + hair) * factor } else { (value + hair) / factor };
     let whole = if up { scaled.ceil() } else { scaled.floor() };
-    let result = back(whole, factor);
+    let result = if digits >= 0 { whole / factor } else { whole * factor };
     if result.is_finite() { result } else { value }
 }
 

@@ -48,9 +48,9 @@ impl Columns {
 
     /// The point of its first numbers.
     pub fn point(self, numbers: &[f64]) -> Result<Vector, String> {
-        match numbers {
-            &[x, y, z, w, ..] if self.homogeneous => point(x / w, y / w, z / w),
-            &[x, y, z, ..] => point(x, y, z),
+        match *numbers {
+            [x, y, z, w, ..] if self.homogeneous => point(x / w, y / w, z / w),
+            [x, y, z, ..] => point(x, y, z),
             _ => Err("a coordinate is missing".into()),
         }
     }
