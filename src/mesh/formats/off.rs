@@ -48,9 +48,9 @@ impl Columns {
 
     /// The point of its first numbers.
     pub fn point(self, numbers: &[f64]) -> Result<Vector, String> {
-        match numbers {
-            &[x, y, z, w, ..] if self.homogeneous => point(x / w, y / w, z / w),
-            &[x, y, z, ..] => point(x, y, z),
+        match *numbers {
+            [x, y, z, w, ..] if self.homogeneous => point(x / w, y / w, z / w),
+            [x, y, z, ..] => point(x, y, z),
             _ => Err("a coordinate is missing".into()),
         }
     }
@@ -149,8 +149,8 @@ fn read_faces(tokens: &mut Tokens, count: usize, mesh: &mut PolygonMesh) -> Resu
 
 /// A face, or a line of two corners.
 pub(super) fn push(mesh: &mut PolygonMesh, face: &[u32]) -> Result<(), String> {
-    match face {
-        &[a, b] => mesh.ribs.push([a, b]),
+    match *face {
+        [a, b] => mesh.ribs.push([a, b]),
         [] | [_] => return Err(format!("a face needs at least three vertices, this one has {}", face.len())),
         _ => mesh.push_face(face),
     }

@@ -189,10 +189,10 @@ impl<'a> Snapper<'a> {
                 }
             }
         }
-        for v in 0..targets.len() {
-            let Some(original) = targets[v].and_then(|target| target.original) else { continue };
+        for (v, target) in targets.iter_mut().enumerate() {
+            let Some(original) = target.and_then(|target| target.original) else { continue };
             if winner[&original].1 != v {
-                targets[v] = self.on_surface(&mesh.positions[v], Place::of(mesh, v as u32), Some(original));
+                *target = self.on_surface(&mesh.positions[v], Place::of(mesh, v as u32), Some(original));
             }
         }
     }
