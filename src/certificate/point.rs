@@ -10,6 +10,8 @@ use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 /// Roundings that the value of a row may hold, in units of the sum of its terms.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
+/// Entries of a row below this share of its largest determine no multiplier.
+const SIGNIFICANT: f64 = 1e-2;
 /// A size is changed by this factor at the most: more would be a guess about rounding.
 const RESIZED: f64 = 1e8;
 /// Variables looked at for that, each for one gradient.
@@ -109,9 +111,25 @@ impl<'a> Point<'a> {
         let steepest = slopes.iter().copied().fold(0.0, f64::max);
         if steepest.is_finite() {
             self.sigma = self.sigma.max(steepest);
-            self.bends = slopes;
+            self.bends = self.passed_on(&slopes);
         }
         Ok(())
+    }
+
+    /// What rows pass on from variable to variable: a multiplier is as uncertain as the slopes it balances, by d_k·∂c_i/∂x_k.
+    fn passed_on(&self, bends: &[f64]) -> Vec<f64> {
+        let (meta, mut all) = (self.meta(), bends.to_vec());
+        for i in 0..meta.rows() {
+            let entry = |at: usize| {
+                let j = meta.jacobian.columns[at] as usize;
+                (j, (self.jacobian[at] * self.sizes[j]).abs())
+            };
+            let significant = |&(_, slope): &(usize, f64)| slope > SIGNIFICANT * self.slopes[i];
+            let multiplier = meta.jacobian.range(i).map(entry).filter(significant).map(|(k, slope)| bends[k] / slope);
+            let multiplier = multiplier.fold(0.0, f64::max);
+            meta.jacobian.range(i).map(entry).for_each(|(j, slope)| all[j] = all[j].max(multiplier * slope));
+        }
+        all
     }
 
     /// What a slope along variable j is measured by: curvature counts for the variables that it bends alone, so that one whose
