@@ -146,6 +146,7 @@ impl<'a> Certifier<'a> {
         if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
             // Without second derivatives the slope alone has to do.
             point.add_curvature().unwrap_or_default();
+            point.relies_on_curvature = true;
             certificate = self.first_order(point, &found, feasibility);
         }
         (found, certificate)

@@ -51,6 +51,8 @@ pub(super) struct Point<'a> {
     /// ‖D∇f(x)‖∞, and Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k variable by variable where that has been looked at.
     steepest: f64,
     bends: Vec<f64>,
+    /// Only curvature makes the slope here a small one: in a tail that is deceptive.
+    pub(super) relies_on_curvature: bool,
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
@@ -85,6 +87,7 @@ impl<'a> Point<'a> {
             sigma,
             steepest: sigma,
             bends: Vec::new(),
+            relies_on_curvature: false,
             slopes,
             terms,
             mean_slopes: OnceLock::new(),
