@@ -59,6 +59,9 @@ fn explain(all: &Constructed, at: usize) -> Result<(), Box<dyn Error>> {
     let found = Certifier::new(&all.problem, Class::Nonlinear, Tolerances::default()).certify(&all.points[at], None)?;
     let (primal, dual, gap) = (found.primal_infeasibility, found.dual_infeasibility, found.complementarity);
     println!("  primal {primal:.1e}, dual {dual:.1e}, complementarity {gap:.1e}, flat {}", found.minimiser_may_not_be_unique);
+    println!("  sigma {:.1e}, sizes {:.2?}", found.sigma, found.variable_scales);
+    println!("  rows {:?}, bounds {:?}", found.row_sides, found.bound_sides);
+    println!("  multipliers of rows {:.2?}, of bounds {:.2?}", found.row_multipliers, found.bound_multipliers);
     found.messages.iter().for_each(|text| println!("  {text}"));
     Ok(())
 }

@@ -9,6 +9,8 @@ use crate::model::Model;
 
 /// A gap below this many roundings of the objective is none.
 const ROUNDINGS: f64 = 1e3 * f64::EPSILON;
+/// Roundings of a row's terms or of a limit.
+const ROUNDED: f64 = 32.0 * f64::EPSILON;
 /// On half the way to the limits the objective falls by half the gap; by more than this times that where the slope grows on the
 /// way. (A power p < 1 of the distance falls by (1 − 2^−p)/(p/2) times as much: 1.17 for a square root, 1.05 for p = 0.85.)
 const HONEST: f64 = 1.05;
@@ -17,9 +19,9 @@ const HONEST: f64 = 1.05;
 /// `None` where it does, or nothing is to be gained.
 pub(super) fn beyond_the_slope(point: &Point<'_>, multipliers: &Multipliers) -> Option<f64> {
     let rows = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0);
-    let in_rows: f64 = rows.map(|(i, &y)| y.abs() * (point.rows[i] - point.row_limit(i, y)).abs()).sum();
+    let in_rows: f64 = rows.map(|(i, &y)| y.abs() * distance(point.rows[i], point.row_limit(i, y), point.row_term(i))).sum();
     let bounds = multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0);
-    let in_bounds: f64 = bounds.map(|(j, &z)| z.abs() * (point.x[j] - point.bound(j, z)).abs()).sum();
+    let in_bounds: f64 = bounds.map(|(j, &z)| z.abs() * distance(point.x[j], point.bound(j, z), 0.0)).sum();
     let gap = in_rows + in_bounds;
     if !(gap > ROUNDINGS * point.objective.abs() && gap.is_finite()) {
         return None;
@@ -33,4 +35,9 @@ pub(super) fn beyond_the_slope(point: &Point<'_>, multipliers: &Multipliers) -> 
     let gain = point.objective - there;
     let magnitude = point.objective.abs().max(there.abs());
     (gain > HONEST * 0.5 * gap + ROUNDINGS * magnitude).then(|| 2.0 * gain / magnitude)
+}
+
+/// The distance from a limit beyond what rounding makes of it: an objective that is 0 at its minimum is no measure of that.
+fn distance(value: f64, limit: f64, term: f64) -> f64 {
+    ((value - limit).abs() - ROUNDED * limit.abs().max(term)).max(0.0)
 }

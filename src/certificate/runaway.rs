@@ -98,7 +98,7 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
             axes.extend(open.into_iter().take(2));
             found.push(direction);
         }
-        if !found.is_empty() {
+        if !found.is_empty() || point.relies_on_curvature {
             found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
             found.push(point.x.to_vec());
         }

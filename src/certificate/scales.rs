@@ -108,10 +108,18 @@ pub(super) fn is_quadratic(origin: &Origin<'_>, x: &[f64], (j, size): (usize, f6
     change.is_some_and(|change| change > 0.5 * said && change < 2.0 * said)
 }
 
-/// x + way·u∘sizes inside the bounds, u in [½, 1] without a pattern, so that sums and differences of variables move, too.
+/// x + way·u∘sizes, u in [½, 1] without a pattern, so that sums and differences of variables move, too. A variable that a bound
+/// would stop goes the other way: where nothing moves, nothing is learnt.
 fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
-    let share = |j: usize| 0.5 + 0.5 * ((j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64 / (1u64 << 53) as f64;
-    let mut there: Vec<f64> = x.iter().zip(sizes).enumerate().map(|(j, (x, d))| x + way * share(j) * d.abs()).collect();
-    meta.clamp(&mut there);
-    there
+    let share = |j: usize| {
+        let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11;
+        0.5 + 0.5 * mixed as f64 / (1u64 << 53) as f64
+    };
+    let there = |j: usize| {
+        let (step, lower, upper) = (way * share(j) * sizes[j].abs(), meta.lower[j], meta.upper[j]);
+        let ahead = x[j] + step;
+        let target = if ahead < lower || ahead > upper { x[j] - step } else { ahead };
+        target.max(lower).min(upper)
+    };
+    (0..x.len()).map(there).collect()
 }

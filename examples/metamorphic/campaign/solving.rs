@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use ribopt::certificate::{Certificate, Scope};
 use ribopt::crosscheck::Status;
+use ribopt::files::Inputs;
 use ribopt::model::Class;
 use ribopt::run::choice::choose;
 use ribopt::run::solve::{Request, solve};
@@ -58,7 +59,8 @@ fn solved(path: &Path, folder: &Path, seconds: f64) -> Result<(Subject, ribopt::
     let mut subject = Subject::read(path, &[]).map_err(|error| error.to_string())?;
     subject.settings.max_seconds = seconds;
     let choices = choose(&[], None, &subject.settings).map_err(|error| error.to_string())?;
-    let request = Request { choices, out: Some(folder), start: None, starts: 1, plot: false, interrupt: None };
+    let inputs = Inputs::new([path.to_path_buf()]);
+    let request = Request { choices, out: Some(folder), start: None, inputs: &inputs, starts: 1, plot: false, interrupt: None };
     let outcome = solve(&subject, &request, &mut ()).map_err(|error: RunError| error.to_string())?.outcome;
     Ok((subject, outcome))
 }

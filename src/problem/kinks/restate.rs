@@ -26,6 +26,8 @@ pub(super) struct Restating {
     definition_level: Vec<usize>,
     /// Definitions restated: the definition, its direction, and whether it is guarded.
     definitions: HashMap<(u32, bool, bool), Formula>,
+    /// Pieces of definitions, by the same.
+    definition_pieces: HashMap<(u32, bool, bool), Vec<Formula>>,
     /// Auxiliaries, each with the constraints that bound it.
     auxiliaries: Vec<(Auxiliary, Vec<Constraint>)>,
     /// The first auxiliary.
@@ -47,6 +49,7 @@ impl Restating {
             definition_has_kinks: vec![false; problem.definitions.len()],
             definition_level: vec![0; problem.definitions.len()],
             definitions: HashMap::new(),
+            definition_pieces: HashMap::new(),
             auxiliaries: Vec::new(),
             items: vec![Item::None],
             may_add: true,
@@ -157,12 +160,11 @@ impl Restating {
                 None => vec![formula.clone()],
             },
             kink if is_kink(kink) => match self.arguments(kink, upward) {
-                Some(list) => list.iter().flat_map(|one| self.pieces(one, upward, guarded)).collect(),
+                Some(list) => self.pieces_of_all(kink, &list, upward, guarded),
                 None => vec![formula.clone()],
             },
             Formula::Definition(d) if self.decides(&self.problem.definitions[*d as usize].1) => {
-                let opened = self.problem.definitions[*d as usize].1.clone();
-                self.pieces(&opened, upward, guarded)
+                self.pieces_of_definition(*d, upward, guarded)
             }
             Formula::Unary(_, inner) => self.carried(formula, 0, inner, upward, guarded),
             Formula::Binary(_, left, right) => match (self.has_kinks(left), self.has_kinks(right)) {
@@ -175,6 +177,42 @@ impl Restating {
             }
             other => vec![self.restate(other, upward, guarded)],
         }
+    }
+
+    /// The pieces of all arguments of a kink; the kink itself where they are too many. An argument that stands there twice decides
+    /// nothing the second time.
+    fn pieces_of_all(&mut self, kink: &Formula, list: &[Formula], upward: bool, guarded: bool) -> Vec<Formula> {
+        let mut all = Vec::new();
+        for (at, one) in list.iter().enumerate() {
+            if at > 0 && list[at - 1] == *one {
+                continue;
+            }
+            all.extend(self.pieces(one, upward, guarded));
+            if all.len() > MOST_PIECES {
+                return vec![kink.clone()];
+            }
+        }
+        all
+    }
+
+    /// Definitions may double sixty times: each is opened once.
+    fn pieces_of_definition(&mut self, d: u32, upward: bool, guarded: bool) -> Vec<Formula> {
+        // Ranges, and so pieces, depend on the items a formula stands for.
+        let key = (d, upward, guarded);
+        if self.items.len() == 1
+            && let Some(known) = self.definition_pieces.get(&key)
+        {
+            return known.clone();
+        }
+        let opened = self.problem.definitions[d as usize].1.clone();
+        let mut pieces = self.pieces(&opened, upward, guarded);
+        if pieces == [opened] {
+            pieces = vec![Formula::Definition(d)];
+        }
+        if self.items.len() == 1 {
+            self.definition_pieces.insert(key, pieces.clone());
+        }
+        pieces
     }
 
     /// Pieces of an operation's only operand with kinks, carried through the operation where it rises or falls over all of them.

@@ -138,6 +138,7 @@ impl Problem {
         }
         self.meta.jacobian = Pattern::from_positions(self.rows.len(), &mut jacobian);
         self.meta.hessian = Pattern::from_positions(n, &mut hessian);
+        self.meta.typical = self.meta.start.iter().map(|start| start.abs()).collect();
         self.meta.row_is_linear = self.rows.iter().map(|row| row.powers.is_empty()).collect();
         self
     }

@@ -34,12 +34,12 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
     let scale = random.decade(-3.0, 3.0);
     let is_degenerate = flat.is_some();
     let (mut powers, mut compensated) = (Vec::new(), Vec::new());
-    for i in 0..counts.first_free() {
+    for (i, own) in coordinates.iter().enumerate().take(counts.first_free()) {
         let multiplier = if i < counts.strict { random.decade(-1.5, 0.5) } else { 0.0 };
         let is_equality = i < counts.strict && random.chance(0.3);
         let signed = if is_equality { multiplier * random.sign() } else { multiplier };
-        objective.iter_mut().zip(&coordinates[i]).for_each(|(g, t)| *g += signed * t);
-        match single(&coordinates[i]) {
+        objective.iter_mut().zip(own).for_each(|(g, t)| *g += signed * t);
+        match single(own) {
             Some((j, slope)) => bound(&mut problem, j, slope > 0.0, is_equality),
             None => {
                 let bend = (!is_degenerate && random.chance(0.4)).then(|| Power {
@@ -50,7 +50,7 @@ pub fn around(random: &mut Random, nature: Nature, near: usize) -> (Problem, Vec
                 // What a multiplier times a bent row adds to the Lagrangian is taken off the objective.
                 compensated
                     .extend(bend.iter().filter(|_| signed != 0.0).map(|p| Power { factor: signed * p.factor, ..p.clone() }));
-                row(random, &mut problem, &coordinates[i], bend.into_iter().collect(), is_equality);
+                row(random, &mut problem, own, bend.into_iter().collect(), is_equality);
             }
         }
     }
