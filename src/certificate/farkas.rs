@@ -76,7 +76,7 @@ impl<'p, 'a> Rows<'p, 'a> {
     fn usable(&self, y: &[f64]) -> Vec<f64> {
         let meta = self.point.meta();
         let keep = |(i, &y): (usize, &f64)| {
-            let counts = self.convex || meta.row_is_linear.get(i).copied().unwrap_or(false);
+            let counts = self.convex || meta.is_row_linear(i);
             if counts && y.is_finite() && self.point.row_limit(i, y).is_finite() { y } else { 0.0 }
         };
         y.iter().enumerate().map(keep).collect()

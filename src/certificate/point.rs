@@ -220,7 +220,7 @@ impl<'a> Point<'a> {
     /// the mean slope over a finite step.
     pub(super) fn row_term(&self, i: usize) -> f64 {
         let term = self.terms[i];
-        if term == 0.0 || self.meta().row_is_linear.get(i).copied().unwrap_or(false) {
+        if term == 0.0 || self.meta().is_row_linear(i) {
             return term;
         }
         let mean = self.mean_slopes.get_or_init(|| scales::mean_slopes(self.origin, self.x, &self.rows));
