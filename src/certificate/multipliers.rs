@@ -42,12 +42,8 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
     let scale = point.scale();
     for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
         let candidate = candidates::row(point, i).find(|candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0)?;
-        let pattern = &point.meta().jacobian;
-        let entry = |at: usize| {
-            let j = pattern.columns[at];
-            (j, point.jacobian[at] * point.sizes[j as usize] / point.slopes[i])
-        };
-        system.push(candidate, pattern.range(i).map(entry).filter(|entry| entry.1 != 0.0));
+        let entries = point.row_in_sizes(i).map(|(j, entry)| (j as u32, entry));
+        system.push(candidate, entries.filter(|entry| entry.1 != 0.0));
         centre.push(y * point.slopes[i] / scale);
     }
     for (j, &z) in multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0) {
@@ -221,15 +217,6 @@ impl Group<'_> {
         self.point.gradient[j] * self.point.sizes[j] / self.point.sigma
     }
 
-    /// The scaled gradient of row i: variables and entries.
-    fn gradient_of(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
-        let (point, pattern) = (self.point, &self.point.meta().jacobian);
-        pattern.range(i).map(move |at| {
-            let j = pattern.columns[at] as usize;
-            (j, point.jacobian[at] * point.sizes[j] / point.slopes[i])
-        })
-    }
-
     /// Adds a candidate's column; whether it starts out as free to move.
     fn add_column(&self, candidate: &Candidate, places: &[u32], entries: &mut Vec<(u32, f64)>) -> bool {
         let place = |j: usize| places[self.partition.place(j as u32) as usize];
@@ -239,7 +226,7 @@ impl Group<'_> {
                 true
             }
             Owner::Row(i) => {
-                let own = self.gradient_of(i).map(|(j, entry)| (place(j), entry));
+                let own = self.point.row_in_sizes(i).map(|(j, entry)| (place(j), entry));
                 entries.extend(own.filter(|&(at, entry)| at != OUT && entry != 0.0));
                 self.guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0)
             }
@@ -270,7 +257,7 @@ impl Group<'_> {
         let mut rest: Vec<f64> = variables.iter().map(|&j| self.slope(j as usize)).collect();
         for &(i, y) in found {
             let y = y * self.point.slopes[i] / self.point.sigma;
-            self.gradient_of(i).for_each(|(j, entry)| rest[self.partition.place(j as u32) as usize] += y * entry);
+            self.point.row_in_sizes(i).for_each(|(j, entry)| rest[self.partition.place(j as u32) as usize] += y * entry);
         }
         system.absorbing.iter().all(|bound| match bound.owner {
             Owner::Bound(j) => -rest[self.partition.place(j as u32) as usize] * bound.sign >= 0.0,

@@ -175,16 +175,9 @@ impl<'a> Point<'a> {
         self.origin.meta()
     }
 
-    /// ‖diag(sizes)·∇c_i‖∞: what the curvature test divides row i by.
-    pub(super) fn slope_in_sizes(&self, i: usize) -> f64 {
-        let pattern = &self.meta().jacobian;
-        let entry = |at: usize| (self.jacobian[at] * self.sizes[pattern.columns[at] as usize]).abs();
-        pattern.range(i).map(entry).fold(0.0, f64::max)
-    }
-
     /// Row i's gradient in these sizes, divided by its slope in them: (variable, entry).
     pub(super) fn row_in_sizes(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (pattern, slope) = (&self.meta().jacobian, self.slope_in_sizes(i));
+        let (pattern, slope) = (&self.meta().jacobian, self.slopes[i]);
         pattern.range(i).map(move |at| {
             let j = pattern.columns[at] as usize;
             (j, self.jacobian[at] * self.sizes[j] / slope)
