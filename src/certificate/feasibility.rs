@@ -153,7 +153,7 @@ pub(super) fn step_back(point: &Point<'_>, wanted: &dyn Fn(&Point<'_>, usize) ->
 fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64>> {
     let mut kkt = Kkt::without_hessian(point, free, held).ok()?;
     kkt.factor_projection().ok()?;
-    let lack = |(k, &i): (usize, &usize)| (nearest_limit(point, i) - point.rows[i]) / kkt.slope(k);
+    let lack = |(k, &i): (usize, &usize)| (point.nearest_limit(i) - point.rows[i]) / kkt.slope(k);
     let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().enumerate().map(lack)).collect();
     let step = kkt.solve(&right).ok()?;
     let mut x = point.x.to_vec();
@@ -161,9 +161,4 @@ fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64
         x[j] += step * point.sizes[j];
     }
     Some(x)
-}
-
-fn nearest_limit(point: &Point<'_>, i: usize) -> f64 {
-    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
-    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
 }

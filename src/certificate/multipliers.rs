@@ -26,8 +26,7 @@ pub(super) fn from_witness(point: &Point<'_>, witness: &[f64]) -> Option<Multipl
     }
     let usable = |i: usize| {
         let y = witness[i];
-        let carries = |candidate: Candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0;
-        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(carries) { y } else { 0.0 }
+        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(|candidate| candidate.carries(y)) { y } else { 0.0 }
     };
     let rows: Vec<f64> = (0..witness.len()).map(usable).collect();
     let bounds = bound_multipliers(point, &point.row_gradient(&rows));
@@ -41,13 +40,13 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
     let mut centre = Vec::new();
     let scale = point.scale();
     for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
-        let candidate = candidates::row(point, i).find(|candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0)?;
+        let candidate = candidates::row(point, i).find(|candidate| candidate.carries(y))?;
         let entries = point.row_in_sizes(i).map(|(j, entry)| (j as u32, entry));
         system.push(candidate, entries.filter(|entry| entry.1 != 0.0));
         centre.push(y * point.slopes[i] / scale);
     }
     for (j, &z) in multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-        let candidate = candidates::bounds(point, j).find(|candidate| candidate.sign == 0.0 || candidate.sign * z > 0.0)?;
+        let candidate = candidates::bounds(point, j).find(|candidate| candidate.carries(z))?;
         system.push(candidate, std::iter::once((j as u32, 1.0)));
         centre.push(z * point.sizes[j] / scale);
     }

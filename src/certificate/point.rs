@@ -56,7 +56,7 @@ pub(super) struct Point<'a> {
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
-    terms: Vec<f64>,
+    pub(super) terms: Vec<f64>,
     /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
     mean_slopes: OnceLock<Option<Vec<f64>>>,
 }
@@ -201,6 +201,12 @@ impl<'a> Point<'a> {
             return 0.0;
         }
         (violation / limit.abs().max(terms).max(f64::MIN_POSITIVE)).min(f64::MAX)
+    }
+
+    /// The limit row i is nearest to.
+    pub(super) fn nearest_limit(&self, i: usize) -> f64 {
+        let (lower, upper, value) = (self.meta().row_lower[i], self.meta().row_upper[i], self.rows[i]);
+        if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
     }
 
     /// By how much row i lies beyond the limit it violates, and that limit.

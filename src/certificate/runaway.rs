@@ -38,7 +38,7 @@ pub(super) fn variables(
     let is_feasible =
         |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
     let held = |rows: Vec<usize>| -> Vec<(usize, f64)> {
-        rows.into_iter().map(|i| (i, resting_limit(point, i))).filter(|held| held.1.is_finite()).collect()
+        rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite()).collect()
     };
     let runs_off = |free: &[usize], held: &[(usize, f64)]| {
         let site = Site {
@@ -67,12 +67,6 @@ pub(super) fn variables(
         Some(direction) => moving(point, &direction),
         None => towards_bounds(point, tolerances.constraint),
     }
-}
-
-/// The limit row i is nearest to.
-fn resting_limit(point: &Point<'_>, i: usize) -> f64 {
-    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
-    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
 }
 
 /// The variables that take part in a direction.

@@ -45,7 +45,8 @@ fn declared_size(meta: &Meta, j: usize) -> f64 {
     if within > 0.0 { given.min(within) } else { given }
 }
 
-fn largest_limit(meta: &Meta, i: usize) -> f64 {
+/// The larger magnitude of row i's finite limits; 0 where it has none.
+pub(super) fn largest_limit(meta: &Meta, i: usize) -> f64 {
     [meta.row_lower[i], meta.row_upper[i]]
         .into_iter()
         .filter(|limit| limit.is_finite())
