@@ -248,7 +248,7 @@ impl<'a> Certifier<'a> {
         }
         point.add_curvature()?;
         let (about, scale) = (point.slope_about(), point.scale());
-        if about > 0.0 {
+        if about > 0.0 && (0..point.x.len()).any(|j| point.is_size_known_otherwise(j)) {
             let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
             point.resize_by_curvature(|j| diagonal[j] * scale, about);
             point.add_curvature()?;

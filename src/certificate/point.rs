@@ -98,7 +98,7 @@ impl<'a> Point<'a> {
     /// does: max_j Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k, the slope one size away.
     pub(super) fn add_curvature(&mut self) -> Result<(), EvaluationError> {
         let meta = self.meta();
-        if meta.objective_is_linear {
+        if meta.objective_is_linear || !self.bends.is_empty() {
             return Ok(());
         }
         let mut values = vec![0.0; meta.hessian.len()];
@@ -147,23 +147,28 @@ impl<'a> Point<'a> {
         scales::slope_about(self.origin, self.x, &self.sizes)
     }
 
-    /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
-    /// one, where it is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the
-    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j², `slope` what
-    /// it is to be one of. Others keep theirs.
+    /// Whether the size of variable j is not |x_j| but what is known of it otherwise.
+    pub(super) fn is_size_known_otherwise(&self, j: usize) -> bool {
+        self.x[j].abs() < self.sizes[j]
+    }
+
+    /// Variables whose size is known otherwise get the size in which the Lagrangian's own curvature is as large as `slope`, where it
+    /// is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the second derivative
+    /// says. `bend(j)` is ∂²L/∂x_j²·d_j². Others keep theirs.
     pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64, slope: f64) {
+        let bends = (0..self.x.len()).filter(|&j| self.is_size_known_otherwise(j)).map(|j| (j, bend(j).abs() / slope));
+        let bends = bends.filter(|&(_, bend)| bend > 0.0 && bend.is_finite()).take(RESIZABLE);
+        let tells = |&(j, bend): &(usize, f64)| scales::is_quadratic(self, j, bend * slope / self.sizes[j]);
+        let resized: Vec<(usize, f64)> = bends.filter(tells).collect();
+        if resized.is_empty() {
+            return;
+        }
         self.plain_sizes.clone_from(&self.sizes);
-        let mut tried = 0;
-        for (j, size) in self.sizes.iter_mut().enumerate() {
-            let bend = bend(j).abs() / slope;
-            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() && tried < RESIZABLE {
-                tried += 1;
-                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * slope / *size) {
-                    *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
-                }
-            }
+        for (j, bend) in resized {
+            self.sizes[j] *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
         }
         self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);
+        self.bends.clear();
     }
 
     /// The variables' sizes whatever the curvature.
