@@ -84,7 +84,8 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
     let (mut found, mut axes) = (Vec::new(), Vec::new());
     if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
         let (free, held) = (choice.loose_variables(), choice.strict_rows());
-        let flat = Kkt::new(point, hessian, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        let flat = Kkt::new(point, hessian, &free, &held)
+            .and_then(|mut kkt| if kkt.is_flat(FLAT)? { kkt.flat_directions(DIRECTIONS, FLAT) } else { Ok(Vec::new()) });
         for direction in flat.unwrap_or_default() {
             let share = |j: &usize| (direction[*j] / point.sizes[*j]).abs();
             let mut open: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
