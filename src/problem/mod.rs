@@ -21,6 +21,7 @@ mod range;
 pub mod ratio;
 pub mod resolve;
 pub mod settings;
+pub mod structure;
 pub mod texts;
 pub mod words;
 
@@ -33,6 +34,7 @@ pub use collections::sections_form;
 pub use formula::{Formula, Property};
 pub use profile::Profile;
 pub use settings::Settings;
+pub use structure::Structure;
 use texts::Texts;
 
 /// Everything a problem file says, checked.
@@ -67,6 +69,8 @@ pub struct Problem {
     /// Variables in the place of minima, maxima and absolute values: the last ones of [`Problem::variables`], in order.
     /// The constraints that bound them come last, too.
     pub auxiliaries: Vec<kinks::Auxiliary>,
+    /// What the ribs with nodes make up; `None` where there are none.
+    pub structure: Option<Arc<structure::Structure>>,
     /// `[solver]`.
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.

@@ -1,0 +1,302 @@
+//! What a problem file says of the structure its ribs make up: nodes, supports, members, loads and cases, checked and by number.
+//!
+//! Global axes x, y, z are right-handed, z up. Six directions belong to a node: three displacements and three rotations.
+
+use super::Dimension;
+
+/// The space a structure lives in, and so the directions in which its nodes can move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Plane {
+    /// All six directions.
+    #[default]
+    Space,
+    /// x, z and ry.
+    Xz,
+    /// x, y and rz.
+    Xy,
+}
+
+impl Plane {
+    /// Which of x, y, z, rx, ry, rz exist.
+    pub fn directions(self) -> [bool; 6] {
+        match self {
+            Plane::Space => [true; 6],
+            Plane::Xz => [true, false, true, false, true, false],
+            Plane::Xy => [true, true, false, false, false, true],
+        }
+    }
+
+    /// The axes of its coordinates: two in a plane, three in space.
+    pub fn axes(self) -> &'static [usize] {
+        match self {
+            Plane::Space => &[0, 1, 2],
+            Plane::Xz => &[0, 2],
+            Plane::Xy => &[0, 1],
+        }
+    }
+
+    /// Its name in files; none for space.
+    pub fn name(self) -> Option<&'static str> {
+        match self {
+            Plane::Space => None,
+            Plane::Xz => Some("xz"),
+            Plane::Xy => Some("xy"),
+        }
+    }
+}
+
+/// The names of a node's six directions, in order.
+pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// A structure. Ribs without nodes are no part of it.
+#[derive(Debug, Clone, Default)]
+pub struct Structure {
+    /// Where it lives.
+    pub plane: Plane,
+    /// What self-weight multiplies densities by.
+    pub gravity: [f64; 3],
+    /// Fractions of a rib's length at which a response without a station is required, ascending from 0 to 1.
+    pub stations: Vec<f64>,
+    /// Pieces a compressed member is cut into for buckling.
+    pub buckling_pieces: u32,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Nodes.
+    pub nodes: Nodes,
+    /// Supports, at most one per node.
+    pub supports: Vec<Support>,
+    /// Masses at nodes besides the members' own.
+    pub masses: Vec<(u32, f64)>,
+    /// Ribs with nodes.
+    pub members: Vec<Member>,
+    /// The member each rib is; `None` for a rib without nodes.
+    pub member_of_rib: Vec<Option<u32>>,
+    /// Names of the load cases.
+    pub cases: Vec<Box<str>>,
+    /// Combinations of cases; their numbers follow those of the cases.
+    pub combinations: Vec<Combination>,
+    /// Loads, one target each.
+    pub loads: Vec<Load>,
+}
+
+/// A material.
+#[derive(Debug, Clone)]
+pub struct Material {
+    /// Its name.
+    pub name: Box<str>,
+    /// Young's modulus E.
+    pub young: Dimension,
+    /// What torsion and shear go by; `None` where neither G nor ν is given.
+    pub shear: Option<Shear>,
+    /// Density (mass or weight per volume, as `gravity` goes with it).
+    pub density: Option<f64>,
+    /// Coefficient of thermal expansion.
+    pub expansion: Option<f64>,
+    /// Further numbers: `material.fy`.
+    pub data: Vec<(Box<str>, f64)>,
+}
+
+/// How the shear modulus is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shear {
+    /// G itself.
+    Modulus(Dimension),
+    /// Poisson's ratio ν: G = E/(2(1 + ν)).
+    Poisson(f64),
+}
+
+/// Nodes, column by column.
+#[derive(Debug, Clone, Default)]
+pub struct Nodes {
+    /// Names.
+    pub names: super::texts::Texts,
+    /// Coordinates; 0 along an axis the plane has not.
+    pub position: Vec<[Dimension; 3]>,
+    /// Data columns.
+    pub data: Vec<super::Column>,
+}
+
+/// What holds a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// The node.
+    pub node: u32,
+    /// Directions that cannot move.
+    pub fixed: [bool; 6],
+    /// Stiffness of springs to the ground, 0 where there is none.
+    pub springs: [f64; 6],
+}
+
+/// A rib between two nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// The rib.
+    pub rib: u32,
+    /// The node where it starts.
+    pub start: u32,
+    /// The node where it ends.
+    pub end: u32,
+    /// Its material.
+    pub material: u32,
+    /// The direction of the section's height; `None` for the default: z up, x for vertical members, the left normal in a plane.
+    pub up: Option<[f64; 3]>,
+    /// Degrees by which the section is turned about the member.
+    pub roll: f64,
+    /// Axial force only.
+    pub pinned: bool,
+    /// Released end forces, at the start and at the end.
+    pub hinges: [Hinges; 2],
+    /// Rigid arms from the nodes to the member's ends, in global axes.
+    pub offset: [[f64; 3]; 2],
+    /// Whether shear deforms it (Timoshenko).
+    pub shear: bool,
+}
+
+/// Forces released at an end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Hinges {
+    /// The torque T.
+    pub torque: bool,
+    /// The moment My (about the section's width, with Ix).
+    pub my: bool,
+    /// The moment Mz.
+    pub mz: bool,
+}
+
+/// Factors over load cases.
+#[derive(Debug, Clone)]
+pub struct Combination {
+    /// Its name.
+    pub name: Box<str>,
+    /// Cases and their factors.
+    pub factors: Vec<(u32, f64)>,
+}
+
+/// One load of one case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// The case.
+    pub case: u32,
+    /// What it acts on and how.
+    pub action: Action,
+}
+
+/// Which axes the components of a load on a member are given in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Axes {
+    /// Global axes, per length of the member.
+    #[default]
+    Global,
+    /// The member's axes.
+    Local,
+    /// Global axes, per length of the member's projection normal to each component.
+    Projected,
+}
+
+/// What acts where.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    /// Force and moment at a node, global axes.
+    Nodal {
+        /// The node.
+        node: u32,
+        /// Force.
+        force: [f64; 3],
+        /// Moment.
+        moment: [f64; 3],
+    },
+    /// A prescribed displacement of a supported direction.
+    Displacement {
+        /// The node.
+        node: u32,
+        /// The direction, 0 to 5.
+        direction: u8,
+        /// How far.
+        value: f64,
+    },
+    /// A force per length, linear between two fractions of the member.
+    Distributed {
+        /// The member.
+        member: u32,
+        /// Axes of the components.
+        axes: Axes,
+        /// At `from`.
+        force: [f64; 3],
+        /// At `to`.
+        force_end: [f64; 3],
+        /// Where it begins, a fraction.
+        from: f64,
+        /// Where it ends, a fraction.
+        to: f64,
+    },
+    /// A force and a moment at a fraction of a member.
+    Point {
+        /// The member.
+        member: u32,
+        /// Axes of the components.
+        axes: Axes,
+        /// Force.
+        force: [f64; 3],
+        /// Moment.
+        moment: [f64; 3],
+        /// Where, a fraction.
+        at: f64,
+    },
+    /// The weight of a member: density times `gravity`.
+    SelfWeight {
+        /// The member.
+        member: u32,
+    },
+    /// A uniform change of temperature.
+    Temperature {
+        /// The member.
+        member: u32,
+        /// How much warmer.
+        change: f64,
+    },
+    /// A temperature that differs between top and bottom.
+    Gradient {
+        /// The member.
+        member: u32,
+        /// Top less bottom.
+        difference: f64,
+    },
+    /// The force the member would have between locked ends.
+    Pretension {
+        /// The member.
+        member: u32,
+        /// Tension.
+        force: f64,
+    },
+}
+
+impl Structure {
+    /// Number of cases and combinations.
+    pub fn load_sets(&self) -> usize {
+        self.cases.len() + self.combinations.len()
+    }
+
+    /// The name of a case or combination.
+    pub fn load_set_name(&self, set: u32) -> &str {
+        let at = set as usize;
+        self.cases.get(at).map_or_else(|| &*self.combinations[at - self.cases.len()].name, |name| name)
+    }
+
+    /// The case or combination of this name.
+    pub fn load_set(&self, name: &str) -> Option<u32> {
+        (0..self.load_sets() as u32).find(|&set| self.load_set_name(set) == name)
+    }
+
+    /// The cases of a case or combination with their factors.
+    pub fn factors(&self, set: u32) -> Vec<(u32, f64)> {
+        match (set as usize).checked_sub(self.cases.len()) {
+            None => vec![(set, 1.0)],
+            Some(at) => self.combinations[at].factors.clone(),
+        }
+    }
+
+    /// The member a rib is.
+    pub fn member(&self, rib: u32) -> Option<u32> {
+        self.member_of_rib.get(rib as usize).copied().flatten()
+    }
+}
