@@ -16,6 +16,7 @@ pub mod elastic;
 mod elements;
 pub mod evaluator;
 pub mod freed;
+pub mod lifted;
 pub mod logarithmic;
 pub mod rebounded;
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod range;
 pub mod ratio;
 pub mod resolve;
 pub mod settings;
+pub mod statics;
 pub mod structure;
 pub mod texts;
 pub mod words;
@@ -71,6 +72,10 @@ pub struct Problem {
     pub auxiliaries: Vec<kinks::Auxiliary>,
     /// What the ribs with nodes make up; `None` where there are none.
     pub structure: Option<Arc<structure::Structure>>,
+    /// The number of the first input that stands for a deformation or a displacement, in the inner problem of a structure.
+    pub first_input: u32,
+    /// What follows from it, see [`Problem::prepare`].
+    pub statics: Option<Arc<statics::Statics>>,
     /// `[solver]`.
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.
@@ -89,6 +94,11 @@ impl Scope {
 }
 
 impl Problem {
+    /// Works out what follows from the structure, where there is one: once everything else is known.
+    pub fn prepare(&mut self) {
+        self.statics = statics::Statics::of(self).map(Arc::new);
+    }
+
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
     pub fn variable_name(&self, j: usize) -> String {
         match self.variables.origin[j] {

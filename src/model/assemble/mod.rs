@@ -5,6 +5,7 @@ mod facts;
 mod gathered;
 mod groups;
 mod lower;
+mod member;
 mod plan;
 mod profile;
 mod sum;
