@@ -104,6 +104,7 @@ impl Problem {
         match self.variables.origin[j] {
             Origin::Scalar(entry) => self.variables.declared[entry as usize].to_string(),
             Origin::Element(entry, index) => format!("{}[{index}]", self.variables.declared[entry as usize]),
+            Origin::Input(at) => format!("input[{at}]"),
             Origin::Dimension(section, position) => {
                 let form = sections::form(self.sections.form[section as usize]);
                 format!("{}.{}", &self.sections.names[section as usize], form.dimensions[position as usize])
@@ -187,6 +188,8 @@ pub enum Origin {
     Element(u32, u32),
     /// `support.b`: a section and the position of the dimension in its form.
     Dimension(u32, u8),
+    /// What a structure's formulas take besides the design: a deformation or a displacement, by number.
+    Input(u32),
 }
 
 /// One dimension of one section, or one given number of it.

@@ -25,6 +25,8 @@ pub struct Statics {
     pub members: Vec<Prepared>,
     /// Members at each node.
     pub members_at: Vec<Vec<u32>>,
+    /// Loads on each node itself, by number, in any case.
+    pub loads_at: Vec<Vec<u32>>,
     /// Directions of each node that something resists, loads or holds: they exist.
     pub exists: Vec<[bool; 6]>,
     /// Directions of each node that are held.
@@ -75,6 +77,12 @@ impl Statics {
                 member.loads.push(number as u32);
             }
         }
+        let mut loads_at = vec![Vec::new(); structure.nodes.names.len()];
+        for (number, load) in structure.loads.iter().enumerate() {
+            if let Action::Nodal { node, .. } = load.action {
+                loads_at[node as usize].push(number as u32);
+            }
+        }
         let mut next = 0;
         for member in &mut members {
             member.first_input = next;
@@ -89,7 +97,7 @@ impl Statics {
         let mut fixed = vec![[false; 6]; nodes];
         structure.supports.iter().for_each(|support| fixed[support.node as usize] = support.fixed);
         let exists = existing(structure, &members);
-        Some(Statics { members, members_at, exists, fixed, inputs: next + 6 * nodes as u32, first_node: next })
+        Some(Statics { members, members_at, loads_at, exists, fixed, inputs: next + 6 * nodes as u32, first_node: next })
     }
 
     /// The input of a member's deformation in a case or combination, counted from the first input of all; `None` where it is released.

@@ -3,6 +3,7 @@
 use super::{Context, Item, Lowering, end_section};
 use crate::expression::graph::NodeId;
 use crate::model::assemble::member::{Framework, MemberNodes, loads};
+use crate::model::lifted::nodal_load;
 use crate::problem::formula::{End, Response, Subject, What};
 use crate::problem::structure::Shear;
 use crate::sections;
@@ -197,7 +198,7 @@ impl Lowering<'_> {
                 }
             }
         }
-        let load = super::super::super::lifted::nodal_load(framework.structure, set, node, direction);
+        let load = nodal_load(framework.structure, framework.statics, set, node, direction);
         parts.push(self.graph.constant(-load));
         self.graph.sum(&parts)
     }
@@ -207,7 +208,7 @@ impl Lowering<'_> {
         let mut parts = Vec::new();
         for node in 0..framework.structure.nodes.names.len() as u32 {
             for direction in 0..6 {
-                let load = super::super::super::lifted::nodal_load(framework.structure, set, node, direction);
+                let load = nodal_load(framework.structure, framework.statics, set, node, direction);
                 if load != 0.0 && framework.statics.is_free(node, direction) {
                     let displacement = self.variable(framework.displacement(set, node, direction));
                     parts.push(self.graph.scale(load, displacement));
