@@ -19,6 +19,9 @@ impl Resolver<'_, '_> {
         body: &Ast,
         span: Span,
     ) -> Option<Formula> {
+        if self.world.stage == Stage::Variables {
+            return self.not_of_variables("a sum over items", span);
+        }
         if self.world.stage == Stage::Constants {
             return self.mistake(span, "this must be constant", Some("numbers and parameters may occur here".into()));
         }
