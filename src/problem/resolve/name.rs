@@ -199,7 +199,8 @@ impl<'a> Resolver<'a, '_> {
     fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
         let own: Vec<&str> = match self.scope {
             Some(scope) if scope.collection == Collection::Sections => scope.properties().collect(),
-            Some(_) => vec!["length", "volume", "from", "to"],
+            Some(scope) if scope.collection == Collection::Ribs => vec!["length", "volume", "from", "to"],
+            Some(_) => Vec::new(),
             None => Vec::new(),
         };
         let columns = self.scope.map_or(&[][..], |scope| self.columns(scope.collection));

@@ -27,8 +27,9 @@ impl Resolver<'_, '_> {
         }
         let mut scope = ItemScope::all(self.world.problem, collection);
         if scope.members.is_empty() {
-            let word = word(collection);
-            return self.mistake(span, format!("there are no {word}"), Some(format!("add [[{word}]] or leave this out")));
+            let (word, table) = (word(collection), if collection == Collection::Ribs { "[[ribs]]" } else { "" });
+            let table = if table.is_empty() { format!("[{word}]") } else { table.to_owned() };
+            return self.mistake(span, format!("there are no {word}"), Some(format!("add {table} or leave this out")));
         }
         let listed = match filter {
             Some(condition) => Some(self.chosen(condition, &scope, span)?),
@@ -77,5 +78,6 @@ pub(super) fn word(collection: Collection) -> &'static str {
     match collection {
         Collection::Ribs => "ribs",
         Collection::Sections => "sections",
+        Collection::Nodes => "nodes",
     }
 }

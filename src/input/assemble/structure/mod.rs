@@ -81,6 +81,7 @@ impl Assembly<'_> {
     pub(super) fn finish_structure(&mut self, declared: &Declaration) {
         let nodes = self.building.structure.nodes.names.len();
         self.building.structure.nodes.data = std::mem::take(&mut self.building.node_data).finish(nodes);
+        self.coordinate_columns();
         if declared.structure.place.is_none() && nodes == 0 && self.building.structure.members.is_empty() {
             return;
         }

@@ -5,8 +5,9 @@ use crate::input::declaration::structure::Vector;
 use crate::input::declaration::{Declaration, Name};
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
-use crate::problem::Dimension;
 use crate::problem::nearest::did_you_mean;
+use crate::problem::structure::DIRECTIONS;
+use crate::problem::{Cells, Column, Dimension};
 
 impl Assembly<'_> {
     pub(super) fn nodes(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
@@ -52,6 +53,26 @@ impl Assembly<'_> {
         let _ = self.names.nodes.enter(&nodes.names, number); // known to be free
         self.building.node_places.push(name.place);
         Some(number)
+    }
+
+    /// Coordinates as data of the nodes, to choose and to reckon by; empty cells where they depend on variables.
+    pub(super) fn coordinate_columns(&mut self) {
+        let structure = &mut self.building.structure;
+        for &axis in structure.plane.axes() {
+            let number = |position: &[Dimension; 3]| match position[axis] {
+                Dimension::Constant(value) => value,
+                _ => f64::NAN,
+            };
+            if structure.nodes.data.iter().all(|column| column.name != DIRECTIONS[axis]) {
+                let cells = Cells::Numbers(structure.nodes.position.iter().map(number).collect());
+                structure.nodes.data.push(Column { name: DIRECTIONS[axis].to_owned(), cells });
+            }
+        }
+    }
+
+    /// Where nodes are declared.
+    pub(in crate::input::assemble) fn node_places(&self) -> &[Place] {
+        &self.building.node_places
     }
 
     /// The node of this name, or a mistake.
