@@ -50,6 +50,7 @@ pub enum AstKind {
 pub enum Collection {
     Ribs,
     Sections,
+    Nodes,
 }
 
 /// `line == "L0"`, `h > 0.2`, joined by `and`, `or`, `not`: a choice among items, by data and parameters.

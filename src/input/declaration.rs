@@ -1,5 +1,7 @@
 //! The file as declared: shapes checked, names not yet looked up, places kept.
 
+pub(super) mod structure;
+
 use super::fields::Scalar;
 use super::source::{Place, Written};
 use crate::expression::ast::Collection;
@@ -21,6 +23,7 @@ pub(super) struct Declaration {
     pub ribs: Vec<RibEntry>,
     pub constraints: Vec<ConstraintEntry>,
     pub settings: Settings,
+    pub structure: structure::StructureEntries,
     pub section_table: Option<Written>,
     pub rib_table: Option<Written>,
 }
@@ -115,6 +118,8 @@ pub(super) struct RibEntry {
     pub length: Option<Scalar>,
     pub law: VolumeLaw,
     pub data: Vec<(Name, Datum)>,
+    /// What makes it a member of the structure.
+    pub member: structure::MemberEntry,
 }
 
 /// An entry of `[[constraints]]`.

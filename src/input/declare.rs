@@ -1,9 +1,12 @@
 //! Walks the file's tables into a [`Declaration`].
 
 mod constraints;
+mod loads;
+mod member;
 mod profiles;
 mod settings;
 mod shapes;
+mod structure;
 
 use toml::de::DeTable;
 
@@ -42,6 +45,7 @@ pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
     for field in named(&mut top, "sections", reader) {
         declared.sections.extend(shapes::section(&field, reader));
     }
+    structure::structure(&mut top, &mut declared.structure, reader);
     for fields in top.take("ribs").map(|field| field.tables(reader)).unwrap_or_default() {
         declared.ribs.extend(shapes::rib(fields, reader));
     }
@@ -52,8 +56,11 @@ pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
         settings::settings(fields, &mut declared.settings, reader);
     }
     if let Some(mut fields) = top.take("tables").and_then(|field| field.table(reader)) {
-        declared.section_table = fields.take("sections").and_then(|field| field.text(reader));
-        declared.rib_table = fields.take("ribs").and_then(|field| field.text(reader));
+        let mut table = |key| fields.take(key).and_then(|field| field.text(reader));
+        (declared.section_table, declared.rib_table) = (table("sections"), table("ribs"));
+        let structure = &mut declared.structure;
+        (structure.node_table, structure.support_table, structure.load_table) =
+            (table("nodes"), table("supports"), table("loads"));
         fields.finish(reader);
     }
     top.finish(reader);

@@ -117,6 +117,14 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// True or false.
+    pub fn flag(&self, reader: &mut Reader) -> Option<bool> {
+        match self.value {
+            DeValue::Boolean(value) => Some(*value),
+            _ => self.expected("true or false", reader),
+        }
+    }
+
     /// A number that is one: no NaN.
     pub fn number(&self, reader: &mut Reader) -> Option<f64> {
         match self.as_number() {

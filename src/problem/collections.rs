@@ -1,4 +1,4 @@
-//! Sections and ribs looked at alike.
+//! Sections, ribs and nodes looked at alike.
 
 use super::texts::Texts;
 use super::{Cells, Column, Problem};
@@ -6,21 +6,22 @@ use crate::expression::ast::Collection;
 use crate::sections::{self, Form};
 
 impl Problem {
-    /// How many sections or ribs there are.
+    /// How many there are.
     pub fn count(&self, collection: Collection) -> u32 {
         self.item_names(collection).len() as u32
     }
 
-    /// The name of a section or rib.
+    /// The name of a section, rib or node.
     pub fn item_name(&self, collection: Collection, index: u32) -> &str {
         self.item_names(collection).get(index as usize).unwrap_or_default()
     }
 
-    /// Data columns of sections or ribs.
+    /// Data columns of sections, ribs or nodes.
     pub fn columns(&self, collection: Collection) -> &[Column] {
         match collection {
             Collection::Sections => &self.sections.data,
             Collection::Ribs => &self.ribs.data,
+            Collection::Nodes => self.structure.as_ref().map_or(&[], |structure| &structure.nodes.data),
         }
     }
 
@@ -32,11 +33,12 @@ impl Problem {
         }
     }
 
-    /// The number of the form of a section, or of the section at a rib's left end.
+    /// The number of the form of a section, or of the section at a rib's left end; a node has none.
     pub fn kind_of(&self, collection: Collection, index: u32) -> Option<u16> {
         let section = match collection {
             Collection::Sections => index,
             Collection::Ribs => *self.ribs.from.get(index as usize)?,
+            Collection::Nodes => return None,
         };
         self.sections.form.get(section as usize).copied()
     }
@@ -45,6 +47,7 @@ impl Problem {
         match collection {
             Collection::Sections => &self.sections.names,
             Collection::Ribs => &self.ribs.names,
+            Collection::Nodes => self.structure.as_ref().map_or(Texts::NONE, |structure| &structure.nodes.names),
         }
     }
 }

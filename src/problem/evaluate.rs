@@ -17,6 +17,7 @@ pub enum Item {
     None,
     Section(u32),
     Rib(u32),
+    Node(u32),
 }
 
 impl Item {
@@ -25,6 +26,7 @@ impl Item {
         match collection {
             Collection::Sections => Item::Section(index),
             Collection::Ribs => Item::Rib(index),
+            Collection::Nodes => Item::Node(index),
         }
     }
 }
@@ -90,6 +92,7 @@ impl<'a> Evaluation<'a> {
             Formula::OwnData(column) => match item {
                 Item::Section(s) => number(self.problem.sections.data.get(*column as usize)?, s),
                 Item::Rib(r) => number(self.problem.ribs.data.get(*column as usize)?, r),
+                Item::Node(n) => number(self.problem.columns(Collection::Nodes).get(*column as usize)?, n),
                 Item::None => None,
             },
             Formula::EndData(end, column) => number(self.problem.sections.data.get(*column as usize)?, self.end(*end, item)?),

@@ -33,6 +33,8 @@ impl Constraint {
             Scope::Ribs(list) => (Collection::Ribs, list.get(row..=row).unwrap_or_default()),
             Scope::SectionGroups(groups) => (Collection::Sections, groups.get(row).map_or(&[], |group| &group.1)),
             Scope::RibGroups(groups) => (Collection::Ribs, groups.get(row).map_or(&[], |group| &group.1)),
+            Scope::Nodes(list) => (Collection::Nodes, list.get(row..=row).unwrap_or_default()),
+            Scope::NodeGroups(groups) => (Collection::Nodes, groups.get(row).map_or(&[], |group| &group.1)),
         }
     }
 }
@@ -73,6 +75,7 @@ impl Walk<'_> {
         let known = match collection {
             Collection::Sections => &mut self.items.sections,
             Collection::Ribs => &mut self.items.ribs,
+            Collection::Nodes => return,
         };
         match members {
             Members::All => known.extend(0..self.problem.count(collection)),

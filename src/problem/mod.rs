@@ -29,6 +29,7 @@ pub mod words;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use crate::expression::ast::Collection;
 use crate::geometry::polygon::Ring;
 use crate::sections;
 pub use collections::sections_form;
@@ -87,8 +88,8 @@ impl Scope {
     pub fn rows(&self) -> usize {
         match self {
             Scope::Once => 1,
-            Scope::Sections(items) | Scope::Ribs(items) => items.len(),
-            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => groups.len(),
+            Scope::Sections(items) | Scope::Ribs(items) | Scope::Nodes(items) => items.len(),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => groups.len(),
         }
     }
 }
@@ -117,9 +118,12 @@ impl Problem {
         let Constraint { name, scope, .. } = &self.constraints[c];
         match scope {
             Scope::Once => name.clone(),
-            Scope::Sections(items) => format!("{name}[{}]", &self.sections.names[items[item] as usize]),
-            Scope::Ribs(items) => format!("{name}[{}]", &self.ribs.names[items[item] as usize]),
-            Scope::RibGroups(groups) | Scope::SectionGroups(groups) => format!("{name}[{}]", groups[item].0),
+            Scope::Sections(items) => format!("{name}[{}]", self.item_name(Collection::Sections, items[item])),
+            Scope::Ribs(items) => format!("{name}[{}]", self.item_name(Collection::Ribs, items[item])),
+            Scope::Nodes(items) => format!("{name}[{}]", self.item_name(Collection::Nodes, items[item])),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => {
+                format!("{name}[{}]", groups[item].0)
+            }
         }
     }
 
@@ -337,4 +341,8 @@ pub enum Scope {
     RibGroups(Vec<(Box<str>, Vec<u32>)>),
     /// One row per group of sections.
     SectionGroups(Vec<(Box<str>, Vec<u32>)>),
+    /// One row per chosen node, by index.
+    Nodes(Vec<u32>),
+    /// One row per group of nodes.
+    NodeGroups(Vec<(Box<str>, Vec<u32>)>),
 }

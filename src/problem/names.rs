@@ -116,6 +116,8 @@ pub struct Names {
     pub sections: NameIndex,
     /// Names of ribs, by [`super::Ribs::names`].
     pub ribs: NameIndex,
+    /// Names of nodes, by [`super::structure::Nodes::names`]: a name space of their own.
+    pub nodes: NameIndex,
 }
 
 impl Names {

@@ -20,6 +20,9 @@ pub struct Texts {
 }
 
 impl Texts {
+    /// No text.
+    pub const NONE: &'static Texts = &Texts { joined: String::new(), ends: Vec::new() };
+
     /// Adds a text at the end.
     pub fn push(&mut self, text: &str) {
         self.joined.push_str(text);

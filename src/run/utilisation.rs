@@ -58,7 +58,8 @@ fn of(scope: &Scope) -> &'static str {
         Scope::Once => "",
         Scope::Sections(_) => "section",
         Scope::Ribs(_) => "rib",
-        Scope::RibGroups(_) | Scope::SectionGroups(_) => "group",
+        Scope::Nodes(_) => "node",
+        Scope::RibGroups(_) | Scope::SectionGroups(_) | Scope::NodeGroups(_) => "group",
     }
 }
 
@@ -106,7 +107,11 @@ impl Found {
     }
 
     fn note(&mut self, collection: Collection, item: u32, used: Option<Most>) {
-        let all = if collection == Collection::Sections { &mut self.sections } else { &mut self.ribs };
+        let all = match collection {
+            Collection::Sections => &mut self.sections,
+            Collection::Ribs => &mut self.ribs,
+            Collection::Nodes => return,
+        };
         if let Some(known) = all.get_mut(item as usize) {
             *known = larger(*known, used);
         }
@@ -161,8 +166,10 @@ fn uses(subject: &Subject, x: &[f64]) -> Result<Vec<Row>, EvaluationError> {
 fn item(problem: &Problem, constraint: &Constraint, row: usize) -> String {
     match &constraint.scope {
         Scope::Once => String::new(),
-        Scope::RibGroups(groups) | Scope::SectionGroups(groups) => groups.get(row).map_or("", |group| &group.0).into(),
-        Scope::Sections(list) | Scope::Ribs(list) => {
+        Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => {
+            groups.get(row).map_or("", |group| &group.0).into()
+        }
+        Scope::Sections(list) | Scope::Ribs(list) | Scope::Nodes(list) => {
             let (collection, _) = constraint.own(row);
             list.get(row).map_or("", |&index| problem.item_name(collection, index)).into()
         }

@@ -7,6 +7,7 @@ mod box_beam;
 mod build;
 mod circle;
 mod fibre;
+mod general;
 mod h_beam;
 mod outline;
 mod pieces;
@@ -130,6 +131,11 @@ pub trait Kind: Sync {
         not_positive(self.name(), form, given, outline)
     }
 
+    /// Has it a boundary at all? Without one there are no pictures and no solids of it.
+    fn has_rings(&self) -> bool {
+        true
+    }
+
     /// The boundary at numeric dimensions: the outer ring counter-clockwise, holes clockwise; curves to `tolerance`.
     /// `given` are numbers in the form's order.
     fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], tolerance: f64) -> Vec<Ring>;
@@ -159,6 +165,7 @@ pub static KINDS: &[&dyn Kind] = &[
     &pieces::ISection,
     &pieces::Channel,
     &pieces::Angle,
+    &general::General,
 ];
 
 /// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.
@@ -230,7 +237,8 @@ pub fn offers(form: &Form, name: &str) -> bool {
         return true;
     }
     let Some(kind) = kind(form.kind).filter(|kind| kind.properties().contains(&name)) else { return false };
-    if !kind.forms().iter().any(|other| other.dimensions.contains(&name)) {
+    // What follows from any of the forms follows from each, where a form says the whole shape.
+    if kind.has_rings() && !kind.forms().iter().any(|other| other.dimensions.contains(&name)) {
         return true;
     }
     let Some(form) = kind.forms().iter().find(|known| *known == form) else { return false };

@@ -167,11 +167,12 @@ fn check_arity(cursor: &mut Cursor, name: &str, span: Span, given: usize, least:
     cursor.mistakes.push(SyntaxError::new(span, message));
 }
 
-/// `ribs` or `sections`, where a colon or a filter follows.
+/// `ribs`, `sections` or `nodes`, where a colon or a filter follows.
 fn collection_ahead(cursor: &Cursor) -> Option<Collection> {
     let collection = match cursor.peek() {
         Some(Kind::Name("ribs")) => Collection::Ribs,
         Some(Kind::Name("sections")) => Collection::Sections,
+        Some(Kind::Name("nodes")) => Collection::Nodes,
         _ => return None,
     };
     matches!(cursor.ahead(1), Some(Kind::Symbol(":") | Kind::Name("where"))).then_some(collection)

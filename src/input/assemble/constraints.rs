@@ -80,6 +80,7 @@ impl Assembly<'_> {
             (Some(by), _) => self.groups(by, &mut scope)?,
             (None, Collection::Sections) => Scope::Sections(scope.members.clone()),
             (None, Collection::Ribs) => Scope::Ribs(scope.members.clone()),
+            (None, Collection::Nodes) => Scope::Nodes(scope.members.clone()),
         };
         Some((scope, rows))
     }
@@ -149,14 +150,16 @@ impl Assembly<'_> {
         Some(match collection {
             Collection::Ribs => Scope::RibGroups(groups),
             Collection::Sections => Scope::SectionGroups(groups),
+            Collection::Nodes => Scope::NodeGroups(groups),
         })
     }
 
     /// The mistake of an empty cell that is used, at its row.
     pub(super) fn empty_cell(&mut self, collection: Collection, item: u32, column: &str, count: usize, user: &str) {
         let (word, places) = match collection {
-            Collection::Sections => ("section", &self.section_places),
-            Collection::Ribs => ("rib", &self.rib_places),
+            Collection::Sections => ("section", self.section_places.as_slice()),
+            Collection::Ribs => ("rib", self.rib_places.as_slice()),
+            Collection::Nodes => ("node", self.node_places()),
         };
         let place = places.get(item as usize).copied().unwrap_or(Place::Whole);
         let name = self.problem.item_name(collection, item);

@@ -10,6 +10,7 @@ mod outlines;
 mod overrides;
 mod profiles;
 mod requirement;
+mod structure;
 mod tables;
 mod unused;
 mod variables;
@@ -57,6 +58,8 @@ pub(super) struct Assembly<'a> {
     /// Points of tables' cells by their text, each kept once.
     points: HashMap<String, Option<Arc<Vec<Ring>>>>,
     used: Vec<(Collection, u32)>,
+    /// The structure, until it is whole.
+    building: structure::Building,
     /// What a table could not give.
     without: Without,
 }
@@ -94,6 +97,7 @@ pub(super) fn assemble(
     }
     assembly.apply(&overrides);
     assembly.check_variables();
+    assembly.finish_structure(&declared);
     assembly.links(&declared.definitions);
     assembly.objective(&declared);
     assembly.constraints(&declared.constraints);
@@ -134,6 +138,7 @@ impl<'a> Assembly<'a> {
             text_numbers: HashMap::new(),
             points: HashMap::new(),
             used: Vec::new(),
+            building: structure::Building::default(),
             without: Without::default(),
         }
     }

@@ -135,6 +135,7 @@ impl Assembly<'_> {
                     Item::None => String::new(),
                     Item::Section(s) => format!(" (section `{}`)", self.problem.item_name(Collection::Sections, s)),
                     Item::Rib(r) => format!(" (rib `{}`)", self.problem.item_name(Collection::Ribs, r)),
+                    Item::Node(n) => format!(" (node `{}`)", self.problem.item_name(Collection::Nodes, n)),
                 };
                 let message = format!("constraint `{name}` has no variables and can never hold{row}");
                 self.findings.mistake(written.place, message, "it needs a design variable, or another limit");
@@ -144,7 +145,10 @@ impl Assembly<'_> {
 
     /// Outside sums, rows of groups use only data that are the same throughout each group.
     fn same_in_groups(&mut self, written: &Written, tree: &Ast, items: Option<&ItemScope>, scope: &Scope) -> bool {
-        let (Some(items), Scope::RibGroups(groups) | Scope::SectionGroups(groups)) = (items, scope) else { return true };
+        let (Some(items), Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups)) = (items, scope)
+        else {
+            return true;
+        };
         let mut same = true;
         for mention in mentions(tree).0.iter().filter(|mention| !mention.in_fold) {
             let name = mention.parts.join(".");
@@ -214,6 +218,8 @@ fn rows(scope: &Scope) -> Box<dyn Iterator<Item = (Item, Option<&[u32]>)> + '_> 
             Box::new(groups.iter().map(move |(_, list)| (Item::Section(first(list)), Some(&list[..]))))
         }
         Scope::RibGroups(groups) => Box::new(groups.iter().map(move |(_, list)| (Item::Rib(first(list)), Some(&list[..])))),
+        Scope::Nodes(list) => Box::new(list.iter().map(|&n| (Item::Node(n), None))),
+        Scope::NodeGroups(groups) => Box::new(groups.iter().map(move |(_, list)| (Item::Node(first(list)), Some(&list[..])))),
     }
 }
 

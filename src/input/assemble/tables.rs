@@ -12,8 +12,10 @@ use crate::problem::VolumeLaw;
 use columns::{Dimension, RibColumns, SectionColumns};
 
 impl Assembly<'_> {
-    /// Reads both tables, and joins all ribs to their sections.
+    /// Reads all tables, and joins all ribs to their sections and nodes.
     pub(super) fn tables(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
+        self.structure_before_ribs(declared, tables);
+        self.file_members(&declared.ribs);
         if let Some(written) = &declared.section_table {
             self.section_table(written, tables);
         }
@@ -21,6 +23,7 @@ impl Assembly<'_> {
             self.rib_table(written, tables);
         }
         self.late_ends(&declared.ribs);
+        self.structure_after_ribs(declared, tables);
     }
 
     fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {

@@ -34,9 +34,10 @@ fn collection(written: &Written, reader: &mut Reader) -> Option<Collection> {
     match written.text.as_str() {
         "ribs" => Some(Collection::Ribs),
         "sections" => Some(Collection::Sections),
+        "nodes" => Some(Collection::Nodes),
         other => {
             let message = format!("`for` is \"{other}\"");
-            reader.findings.mistake(written.place, message, "expected \"sections\" or \"ribs\"");
+            reader.findings.mistake(written.place, message, "expected \"sections\", \"ribs\" or \"nodes\"");
             None
         }
     }

@@ -100,7 +100,8 @@ fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {
     field.scalar(reader).map_or_else(|| DimensionEntry::Own(Default::default()), DimensionEntry::Given)
 }
 
-fn data(fields: &mut Fields, reader: &mut Reader) -> Vec<(Name, Datum)> {
+/// `data = { … }`
+pub(super) fn data(fields: &mut Fields, reader: &mut Reader) -> Vec<(Name, Datum)> {
     let Some(mut table) = fields.take("data").and_then(|field| field.table(reader)) else { return Vec::new() };
     table.rest().iter().filter_map(|field| datum(field, reader).map(|datum| (name(field), datum))).collect()
 }
@@ -127,12 +128,17 @@ pub(super) fn rib(mut fields: Fields, reader: &mut Reader) -> Option<RibEntry> {
     let given = fields.require("name", "a rib", reader).and_then(|field| field.text(reader));
     let what = given.as_ref().map_or("a rib".to_owned(), |name| format!("rib `{}`", name.text));
     let (from, to) = ends(&mut fields, &what, reader);
-    let length = fields.require("length", &what, reader).and_then(|field| field.scalar(reader));
+    let member = super::member::member(&mut fields, reader);
+    let length = match member.given() {
+        true => fields.take("length"),
+        false => fields.require("length", &what, reader),
+    };
+    let length = length.and_then(|field| field.scalar(reader));
     let law = fields.take("volume").and_then(|field| field.text(reader)).and_then(|written| law(&written, reader));
     let data = data(&mut fields, reader);
     fields.finish(reader);
     let name = given.map_or(Name { text: String::new(), place }, |written| Name { text: written.text, place: written.place });
-    Some(RibEntry { name, from, to, length, law: law.unwrap_or_default(), data })
+    Some(RibEntry { name, from, to, length, law: law.unwrap_or_default(), data, member })
 }
 
 /// `from` and `to`, or `section` for both.

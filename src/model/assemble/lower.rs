@@ -29,6 +29,7 @@ pub(super) enum Item {
     None,
     Section(u32),
     Rib(u32),
+    Node(u32),
 }
 
 impl Context<'_> {
@@ -51,16 +52,9 @@ pub(super) fn cell(columns: &[Column], column: u32, row: u32) -> f64 {
 pub(super) fn members<'a>(problem: &Problem, collection: Collection, members: &'a Members, context: Context<'a>) -> Vec<u32> {
     match members {
         Members::Listed(list) => list.to_vec(),
-        Members::All => (0..count(problem, collection)).collect(),
+        Members::All => (0..problem.count(collection)).collect(),
         Members::Group(None) => context.group.to_vec(),
         Members::Group(Some(list)) => context.group.iter().copied().filter(|item| list.binary_search(item).is_ok()).collect(),
-    }
-}
-
-fn count(problem: &Problem, collection: Collection) -> u32 {
-    match collection {
-        Collection::Ribs => problem.ribs.names.len() as u32,
-        Collection::Sections => problem.sections.names.len() as u32,
     }
 }
 
@@ -68,6 +62,7 @@ fn count(problem: &Problem, collection: Collection) -> u32 {
 pub(super) fn item_of(collection: Collection, index: u32) -> Item {
     match collection {
         Collection::Ribs => Item::Rib(index),
+        Collection::Nodes => Item::Node(index),
         Collection::Sections => Item::Section(index),
     }
 }
@@ -118,6 +113,7 @@ impl OwnNumber {
             (OwnNumber::Length, Item::Rib(rib)) => problem.ribs.length[rib as usize],
             (OwnNumber::Data(column), Item::Rib(rib)) => cell(&problem.ribs.data, column, rib),
             (OwnNumber::Data(column), Item::Section(section)) => cell(&problem.sections.data, column, section),
+            (OwnNumber::Data(column), Item::Node(node)) => cell(problem.columns(Collection::Nodes), column, node),
             (OwnNumber::EndData(end, column), Item::Rib(rib)) => {
                 cell(&problem.sections.data, column, end_section(problem, rib, end))
             }
@@ -292,9 +288,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn volume(&mut self, total: Total) -> NodeId {
-        let nodes: Vec<NodeId> = (0..count(self.problem, Collection::Ribs))
-            .map(|rib| self.rib_volume(rib, law_of(self.problem, rib, total)))
-            .collect();
+        let nodes: Vec<NodeId> =
+            (0..self.problem.count(Collection::Ribs)).map(|rib| self.rib_volume(rib, law_of(self.problem, rib, total))).collect();
         self.graph.sum(&nodes)
     }
 

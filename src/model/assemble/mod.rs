@@ -174,12 +174,16 @@ fn context(scope: &Scope, item: usize) -> Context<'_> {
         Scope::Once => Context::GLOBAL,
         Scope::Sections(items) => Context { item: Item::Section(items[item]), group: &[] },
         Scope::Ribs(items) => Context { item: Item::Rib(items[item]), group: &[] },
+        Scope::Nodes(items) => Context { item: Item::Node(items[item]), group: &[] },
         // Plain data are the same throughout the group (the reader saw to that): the first member's serve.
         Scope::RibGroups(groups) => {
             Context { item: groups[item].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), group: &groups[item].1 }
         }
         Scope::SectionGroups(groups) => {
             Context { item: groups[item].1.first().map_or(Item::None, |&section| Item::Section(section)), group: &groups[item].1 }
+        }
+        Scope::NodeGroups(groups) => {
+            Context { item: groups[item].1.first().map_or(Item::None, |&node| Item::Node(node)), group: &groups[item].1 }
         }
     }
 }

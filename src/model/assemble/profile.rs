@@ -12,6 +12,7 @@ impl Lowering<'_> {
             Item::None => evaluate::Item::None,
             Item::Section(section) => evaluate::Item::Section(section),
             Item::Rib(rib) => evaluate::Item::Rib(rib),
+            Item::Node(node) => evaluate::Item::Node(node),
         };
         let s = Evaluation::constants(self.problem).value(at, item);
         // The reader only lets through parameters between 0 and 1.

@@ -118,6 +118,8 @@ impl Restating {
             Scope::Ribs(items) => Scope::Ribs(vec![items[at]]),
             Scope::RibGroups(groups) => Scope::RibGroups(vec![groups[at].clone()]),
             Scope::SectionGroups(groups) => Scope::SectionGroups(vec![groups[at].clone()]),
+            Scope::Nodes(items) => Scope::Nodes(vec![items[at]]),
+            Scope::NodeGroups(groups) => Scope::NodeGroups(vec![groups[at].clone()]),
         };
         let left = self.problem.instance(&constraint.left, item, group)?;
         Some(Constraint { scope, left, ..constraint.clone() })
@@ -475,6 +477,8 @@ fn item(scope: &Scope, at: usize) -> (Item, &[u32]) {
         Scope::Ribs(items) => (Item::Rib(items[at]), &[]),
         Scope::RibGroups(groups) => (groups[at].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), &groups[at].1),
         Scope::SectionGroups(groups) => (groups[at].1.first().map_or(Item::None, |&s| Item::Section(s)), &groups[at].1),
+        Scope::Nodes(items) => (Item::Node(items[at]), &[]),
+        Scope::NodeGroups(groups) => (groups[at].1.first().map_or(Item::None, |&node| Item::Node(node)), &groups[at].1),
     }
 }
 

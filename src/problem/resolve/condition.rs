@@ -166,6 +166,7 @@ impl Text {
         let (collection, index) = match item {
             Item::Section(s) => (Collection::Sections, s),
             Item::Rib(r) => (Collection::Ribs, r),
+            Item::Node(n) => (Collection::Nodes, n),
             Item::None => return "",
         };
         match self {

@@ -51,6 +51,8 @@ pub struct Report {
 pub enum Stage {
     /// Parameters only.
     Constants,
+    /// Parameters, variables, and definitions made of these.
+    Variables,
     /// Everything declared.
     All,
 }

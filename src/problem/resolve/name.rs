@@ -155,7 +155,10 @@ impl<'a> Resolver<'a, '_> {
                 self.mistake(span, message, Some("numbers and parameters may occur here".into()))
             }
             Some(Entity::Variable(v)) => Some(self.variable(v)),
-            Some(Entity::Definition(d)) => self.world.definitions.get(d as usize).cloned().flatten(),
+            Some(Entity::Definition(d)) => match self.world.definitions.get(d as usize).cloned().flatten() {
+                None if self.world.stage == Stage::Variables => self.not_of_variables(&format!("`{name}`"), span),
+                value => value,
+            },
             Some(entity) => {
                 let message = format!("`{name}` is a {}, not a number", entity.word());
                 let what = if matches!(entity, Entity::Section(_)) { "Ix" } else { "length" };
@@ -167,6 +170,15 @@ impl<'a> Resolver<'a, '_> {
                 _ => self.unknown(name, span),
             },
         }
+    }
+
+    /// The mistake of what does not follow from parameters and variables alone.
+    pub(super) fn not_of_variables<T>(&mut self, what: &str, span: Span) -> Option<T> {
+        if self.world.stage == Stage::Constants {
+            return self.mistake(span, format!("{what} is not constant"), Some("numbers and parameters may occur here".into()));
+        }
+        let help = "numbers, parameters, variables and definitions made of these may occur here";
+        self.mistake(span, format!("{what} is not made of parameters and variables alone"), Some(help.into()))
     }
 
     fn volume(&mut self, total: Total, span: Span) -> Option<Formula> {
@@ -187,7 +199,8 @@ impl<'a> Resolver<'a, '_> {
     fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
         let own: Vec<&str> = match self.scope {
             Some(scope) if scope.collection == Collection::Sections => scope.properties().collect(),
-            Some(_) => vec!["length", "volume", "from", "to"],
+            Some(scope) if scope.collection == Collection::Ribs => vec!["length", "volume", "from", "to"],
+            Some(_) => Vec::new(),
             None => Vec::new(),
         };
         let columns = self.scope.map_or(&[][..], |scope| self.columns(scope.collection));
@@ -206,9 +219,8 @@ impl<'a> Resolver<'a, '_> {
 
     /// `support.Ix`, `support.c`, `haunch.length`, `haunch.c`.
     fn member(&mut self, item: &str, name: &str, span: Span) -> Option<Formula> {
-        if self.world.stage == Stage::Constants {
-            let help = "numbers and parameters may occur here";
-            return self.mistake(span, format!("`{item}.{name}` is not constant"), Some(help.into()));
+        if self.world.stage != Stage::All {
+            return self.not_of_variables(&format!("`{item}.{name}`"), span);
         }
         match self.world.names.find(self.world.problem, item) {
             Some(Entity::Section(s)) => self.section(s, name, span),
@@ -285,6 +297,9 @@ impl<'a> Resolver<'a, '_> {
 
     /// `haunch.from.b`
     fn rib_end(&mut self, rib: &str, end: &str, name: &str, span: Span) -> Option<Formula> {
+        if self.world.stage != Stage::All {
+            return self.not_of_variables(&format!("`{rib}.{end}.{name}`"), span);
+        }
         let found = self.world.names.find(self.world.problem, rib);
         let ribs = &self.world.problem.ribs;
         let section = match (found, end) {

@@ -19,13 +19,17 @@ impl Resolver<'_, '_> {
         body: &Ast,
         span: Span,
     ) -> Option<Formula> {
+        if self.world.stage == Stage::Variables {
+            return self.not_of_variables("a sum over items", span);
+        }
         if self.world.stage == Stage::Constants {
             return self.mistake(span, "this must be constant", Some("numbers and parameters may occur here".into()));
         }
         let mut scope = ItemScope::all(self.world.problem, collection);
         if scope.members.is_empty() {
-            let word = word(collection);
-            return self.mistake(span, format!("there are no {word}"), Some(format!("add [[{word}]] or leave this out")));
+            let (word, table) = (word(collection), if collection == Collection::Ribs { "[[ribs]]" } else { "" });
+            let table = if table.is_empty() { format!("[{word}]") } else { table.to_owned() };
+            return self.mistake(span, format!("there are no {word}"), Some(format!("add {table} or leave this out")));
         }
         let listed = match filter {
             Some(condition) => Some(self.chosen(condition, &scope, span)?),
@@ -74,5 +78,6 @@ pub(super) fn word(collection: Collection) -> &'static str {
     match collection {
         Collection::Ribs => "ribs",
         Collection::Sections => "sections",
+        Collection::Nodes => "nodes",
     }
 }

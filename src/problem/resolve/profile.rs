@@ -73,11 +73,12 @@ impl Resolver<'_, '_> {
     }
 
     fn words_for(&self, item: Item) -> String {
-        use crate::expression::ast::Collection::{Ribs, Sections};
+        use crate::expression::ast::Collection::{Nodes, Ribs, Sections};
         match item {
             Item::None => String::new(),
             Item::Section(s) => format!(" for section `{}`", self.world.problem.item_name(Sections, s)),
             Item::Rib(r) => format!(" for rib `{}`", self.world.problem.item_name(Ribs, r)),
+            Item::Node(n) => format!(" for node `{}`", self.world.problem.item_name(Nodes, n)),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::sections;
 /// Sections or ribs, and the kinds of section met among them.
 #[derive(Debug, Clone)]
 pub struct ItemScope {
-    /// Sections or ribs.
+    /// Sections, ribs or nodes.
     pub collection: Collection,
     /// Their numbers, ascending.
     pub members: Vec<u32>,
@@ -32,6 +32,7 @@ impl ItemScope {
                 let ends = members.iter().flat_map(|&r| [&problem.ribs.from, &problem.ribs.to].map(|end| end.get(r as usize)));
                 ends.flatten().filter_map(|&s| form(s)).collect()
             }
+            Collection::Nodes => BTreeSet::new(),
         };
         ItemScope { collection, members, forms, grouped: false, itself: None }
     }

@@ -1,0 +1,92 @@
+//! The structure: nodes, materials, members, supports, loads and cases, looked up and by number.
+//!
+//! Read in the order in which each needs the others: settings and materials, nodes, members (with the ribs), supports, loads,
+//! combinations; in the end, when starts of variables are known, places and lengths.
+
+mod cases;
+mod lengths;
+mod loads;
+mod materials;
+mod members;
+mod nodes;
+mod numbers;
+mod settings;
+mod supports;
+mod tables;
+mod targets;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::Assembly;
+use super::data::DataColumns;
+use crate::input::declaration::Declaration;
+use crate::input::source::Place;
+use crate::input::table::Tables;
+use crate::problem::structure::Structure;
+
+/// A structure while it is read.
+#[derive(Default)]
+pub(super) struct Building {
+    pub(super) structure: Structure,
+    /// Where nodes are declared.
+    node_places: Vec<Place>,
+    pub(super) node_data: DataColumns,
+    materials: HashMap<Box<str>, u32>,
+    material_places: Vec<Place>,
+    /// Ribs are bars where they do not say otherwise.
+    pinned: bool,
+    /// Where members say what may turn out wrong once places are known.
+    said: HashMap<u32, Said>,
+    /// Supports by node: the support, where it is given, and whether by a pattern.
+    held: HashMap<u32, Held>,
+    cases: HashMap<Box<str>, u32>,
+    targets: targets::Targets,
+    /// Whether nodes are missing because a table could not be read.
+    incomplete: bool,
+}
+
+/// What a member says of itself.
+#[derive(Default, Clone, Copy)]
+struct Said {
+    length: Option<(f64, Place)>,
+    up: Option<Place>,
+}
+
+/// A node's support while supports are read.
+#[derive(Clone, Copy)]
+struct Held {
+    support: u32,
+    place: Place,
+    by_pattern: bool,
+}
+
+impl Assembly<'_> {
+    /// What members need: settings, materials, nodes.
+    pub(super) fn structure_before_ribs(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
+        self.structure_settings(&declared.structure);
+        self.materials(&declared.structure);
+        self.nodes(declared, tables);
+    }
+
+    /// What speaks of nodes and ribs: supports, masses, loads, combinations.
+    pub(super) fn structure_after_ribs(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
+        self.supports(&declared.structure, tables);
+        self.masses(&declared.structure);
+        self.loads(&declared.structure, tables);
+        self.combinations(&declared.structure);
+    }
+
+    /// Closes the structure, when the variables' starts are known. Without any of its tables and without members there is none.
+    pub(super) fn finish_structure(&mut self, declared: &Declaration) {
+        let nodes = self.building.structure.nodes.names.len();
+        self.building.structure.nodes.data = std::mem::take(&mut self.building.node_data).finish(nodes);
+        self.coordinate_columns();
+        if declared.structure.place.is_none() && nodes == 0 && self.building.structure.members.is_empty() {
+            return;
+        }
+        self.building.structure.member_of_rib.resize(self.problem.ribs.names.len(), None);
+        self.lengths();
+        self.problem.structure = Some(Arc::new(std::mem::take(&mut self.building.structure)));
+    }
+}
