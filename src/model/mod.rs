@@ -6,6 +6,7 @@
 mod assemble;
 mod assembled;
 pub mod augmented;
+mod auxiliaries;
 pub mod bounds_only;
 pub mod class;
 pub mod components;
@@ -20,6 +21,7 @@ pub mod lifted;
 pub mod logarithmic;
 pub mod mapped;
 pub mod reduced;
+pub mod structural;
 pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -38,6 +40,7 @@ pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use lifted::{Lifted, States};
 pub use reduced::Reduced;
+pub use structural::{Assembled, assemble_any};
 pub use freed::{Freed, Limit};
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;

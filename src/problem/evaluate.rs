@@ -95,6 +95,14 @@ impl<'a> Evaluation<'a> {
                 Item::Node(n) => number(self.problem.columns(Collection::Nodes).get(*column as usize)?, n),
                 Item::None => None,
             },
+            Formula::OwnMaterial(name) => match item {
+                Item::Rib(r) => {
+                    let structure = self.problem.structure.as_deref()?;
+                    let member = structure.members.get(structure.member(r)? as usize)?;
+                    super::resolve::response::number(structure, member.material, name)
+                }
+                _ => None,
+            },
             Formula::EndData(end, column) => number(self.problem.sections.data.get(*column as usize)?, self.end(*end, item)?),
             Formula::Profile(profile, at) => {
                 let (s, profile) = (self.value(at, item)?, self.problem.profiles.get(*profile as usize)?);

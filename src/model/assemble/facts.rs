@@ -56,7 +56,11 @@ impl Facts {
     /// True where no variable can stand inside.
     pub fn is_constant(&self, formula: &Formula) -> bool {
         match formula {
-            Formula::Constant(_) | Formula::OwnLength | Formula::OwnData(_) | Formula::EndData(..) => true,
+            Formula::Constant(_)
+            | Formula::OwnLength
+            | Formula::OwnData(_)
+            | Formula::OwnMaterial(_)
+            | Formula::EndData(..) => true,
             Formula::Definition(definition) => self.definition_constant[*definition as usize],
             Formula::SectionProperty(section, _) => {
                 self.section_constant.get(*section as usize).is_some_and(|constant| *constant)

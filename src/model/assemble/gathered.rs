@@ -37,7 +37,7 @@ impl Gathered {
         if !plan.sections(problem, item).into_iter().flatten().all(|section| self.section(problem, section)) {
             return false;
         }
-        for &number in &plan.numbers {
+        for number in &plan.numbers {
             if !self.is_taken(item, number) {
                 self.numbers.push(number.of(problem, item));
             }
@@ -121,9 +121,9 @@ impl Gathered {
     }
 
     /// Whether a number of the item has its slot already.
-    fn is_taken(&self, item: Item, number: OwnNumber) -> bool {
+    fn is_taken(&self, item: Item, number: &OwnNumber) -> bool {
         match (item, number) {
-            (Item::Section(section), OwnNumber::Data(column)) => self.taken.contains(&(section, column)),
+            (Item::Section(section), OwnNumber::Data(column)) => self.taken.contains(&(section, *column)),
             _ => false,
         }
     }
