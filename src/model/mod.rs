@@ -40,7 +40,7 @@ pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use lifted::{Lifted, States};
 pub use reduced::Reduced;
-pub use structural::{Assembled, assemble_any};
+pub use structural::{Assembled, WithDisplacements, assemble_any};
 pub use freed::{Freed, Limit};
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;

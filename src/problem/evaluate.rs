@@ -86,6 +86,7 @@ impl<'a> Evaluation<'a> {
             },
             Formula::EndProperty(end, property) => self.property(self.end(*end, item)?, &property.0),
             Formula::OwnLength => match item {
+                Item::Rib(r) if self.problem.structure.as_deref().is_some_and(|structure| structure.moves(r)) => None,
                 Item::Rib(r) => self.problem.ribs.length.get(r as usize).copied(),
                 _ => None,
             },

@@ -74,6 +74,8 @@ pub enum What {
     Compliance,
     /// A rib's mass by its density (∫A dx).
     Mass,
+    /// The length of a rib whose nodes move with the design.
+    Length,
     /// A basic force of a member: state equations are made of them.
     Basic(u8),
     /// What the supports of the simply supported member exert, see [`crate::structure::Beam::support_forces`].
@@ -150,7 +152,7 @@ impl Formula {
     /// Whether a response other than a mass stands inside (definitions aside).
     pub fn analyses(&self) -> bool {
         match self {
-            Formula::Response(response) => response.what != What::Mass,
+            Formula::Response(response) => !matches!(response.what, What::Mass | What::Length),
             Formula::Unary(_, inner) | Formula::Profile(_, inner) => inner.analyses(),
             Formula::Binary(_, left, right) => left.analyses() || right.analyses(),
             Formula::Fold(_, list) => list.iter().any(Formula::analyses),

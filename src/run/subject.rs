@@ -8,7 +8,8 @@ use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{
-    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, assemble, assemble_any, classify,
+    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements, assemble,
+    assemble_any, classify,
     volumes,
 };
 use crate::problem::formula::Total;
@@ -103,7 +104,7 @@ impl Subject {
             (_, Assembled::Ribs(model)) if is_dust(model) => None,
             (Some(logarithmic), _) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             (None, Assembled::Ribs(model)) => differences(&problem, model),
-            (None, Assembled::Structure(_)) => None,
+            (None, Assembled::Structure(model)) => Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>),
         };
         Ok(Subject {
             class,

@@ -112,7 +112,7 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
     if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
         return over(cursor, fold, collection);
     }
-    let arguments = if RESPONSES.contains(&name) { words_or_expressions(cursor)? } else { arguments(cursor)? };
+    let arguments = if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };
     let span = cursor.since(place.start);
     if let Some(fold) = fold {
         check_arity(cursor, name, span, arguments.len(), 1, usize::MAX);
@@ -145,13 +145,14 @@ pub(crate) const RESPONSES: [&str; 10] =
     ["disp", "deflection", "sag", "force", "stress", "vonmises", "reaction", "compliance", "buckling", "frequency"];
 
 /// The arguments of a response.
-fn words_or_expressions(cursor: &mut Cursor) -> Parsed<Vec<Ast>> {
+fn words_or_expressions(cursor: &mut Cursor, case_first: bool) -> Parsed<Vec<Ast>> {
     let mut list = Vec::new();
     if cursor.accept(")") {
         return Ok(list);
     }
     loop {
-        list.push(match word(cursor) {
+        let case = if case_first && list.is_empty() { case(cursor) } else { None };
+        list.push(match case.or_else(|| word(cursor)) {
             Some(word) => word,
             None => cursor.nested(expression)?,
         });
@@ -162,6 +163,15 @@ fn words_or_expressions(cursor: &mut Cursor) -> Parsed<Vec<Ast>> {
             return Err(cursor.unexpected("an operator, `,` or `)`"));
         }
     }
+}
+
+/// The name of a case or combination, as it stands: `ULS`, `1.35G+1.5Q`, or anything in quotes.
+fn case(cursor: &mut Cursor) -> Option<Ast> {
+    if matches!(cursor.peek(), Some(Kind::Text(_))) {
+        return None;
+    }
+    let (text, span) = cursor.raw_argument()?;
+    Some(Ast { kind: AstKind::Text(text.to_string()), span })
 }
 
 /// Text in quotes, or names and numbers joined by hyphens (`top-left`, `web-centre`) that end the argument.

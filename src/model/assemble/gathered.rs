@@ -31,6 +31,9 @@ impl Gathered {
             return false;
         }
         if let Item::Rib(rib) = item {
+            if problem.structure.as_deref().is_some_and(|structure| structure.moves(rib)) {
+                return false;
+            }
             let (from, to) = (end_section(problem, rib, End::From), end_section(problem, rib, End::To));
             self.shape.extend([problem.ribs.law[rib as usize] as u32, u32::from(from == to)]);
         }

@@ -308,6 +308,7 @@ impl<'a> Lowering<'a> {
             (Formula::OwnProperty(property), Item::Section(section)) => self.own_property(section, property),
             (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
             (Formula::OwnMaterial(name), item) => self.own_number(item, OwnNumber::Material(Arc::clone(name))),
+            (Formula::OwnLength, Item::Rib(rib)) => self.rib_length(rib, true),
             (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),
             (Formula::EndData(end, column), item) => self.own_number(item, OwnNumber::EndData(*end, *column)),
             (Formula::OwnVolume, Item::Rib(rib)) => self.own_volume(rib, law_of(problem, rib, Total::Own)),

@@ -78,6 +78,11 @@ impl Plan {
                 self.number(OwnNumber::Length);
             }
             Formula::Response(response) => match response.subject {
+                Subject::Own if matches!(response.what, What::Mass | What::Length) => {
+                    (self.from, self.to) = (true, true);
+                    self.number(OwnNumber::Material("density".into()));
+                    self.number(OwnNumber::Length);
+                }
                 Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_)) => {
                     (self.from, self.to) = (true, true);
                     if !self.sets.contains(&response.set) {

@@ -7,7 +7,7 @@ use super::{Resolver, Stage, Value};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection};
 use crate::problem::evaluate::number;
-use crate::problem::formula::{End, Total};
+use crate::problem::formula::{End, Response, Subject, Total, What};
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Cells, Column, Dimension, Formula, Property};
@@ -177,6 +177,10 @@ impl<'a> Resolver<'a, '_> {
         }
     }
 
+    fn moves(&self, rib: u32) -> bool {
+        self.world.problem.structure.as_deref().is_some_and(|structure| structure.moves(rib))
+    }
+
     /// Whether a word of structures is one here: there is a structure, and nothing else has this name.
     fn is_free(&self, name: &str) -> bool {
         self.world.problem.structure.is_some()
@@ -295,6 +299,9 @@ impl<'a> Resolver<'a, '_> {
 
     fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
         match name {
+            "length" if self.moves(r) => {
+                Some(Formula::Response(Arc::new(Response { set: 0, subject: Subject::Rib(r), what: What::Length })))
+            }
             "length" => self.world.problem.ribs.length.get(r as usize).map(|&length| Formula::Constant(length)),
             "volume" => Some(Formula::RibVolume(r)),
             _ => match self.cell(Collection::Ribs, r, name, span) {
