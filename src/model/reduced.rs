@@ -79,6 +79,25 @@ impl<M: WithStates> Reduced<M> {
         self.stiffness().mechanism(&self.lifted, x)
     }
 
+    /// The largest residual of a state equation at a design, over the largest sum of the sizes of one's terms.
+    ///
+    /// # Errors
+    /// As [`Reduced::solved`].
+    pub fn residual(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+        let (z, meta) = (self.solved(x)?, self.lifted.meta());
+        let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+        self.lifted.constraints(&z, &mut rows)?;
+        self.lifted.jacobian(&z, &mut jacobian)?;
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        for row in self.states.first_row..meta.rows() {
+            let of_state = |at: &usize| meta.jacobian.columns[*at] as usize >= self.states.first_variable;
+            let terms = meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
+            worst = worst.max((rows[row] - meta.row_upper[row]).abs());
+            largest = largest.max(terms.sum::<f64>() + meta.row_upper[row].abs());
+        }
+        Ok(if largest > 0.0 { worst / largest } else { 0.0 })
+    }
+
     fn stiffness(&self) -> std::sync::MutexGuard<'_, Stiffness> {
         self.stiffness.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }

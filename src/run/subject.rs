@@ -8,7 +8,7 @@ use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{
-    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements, assemble,
+    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements,
     assemble_any, classify,
     volumes,
 };
@@ -177,7 +177,8 @@ impl Subject {
         let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
         let objective = Formula::default();
         let problem = Problem { constraints: rows.into(), objective, ..self.problem().clone() };
-        let model = assemble(&Arc::new(problem)).ok()?;
+        let assembled = assemble_any(&Arc::new(problem)).ok()?;
+        let model = assembled.model();
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;
         Some(totals)
