@@ -97,7 +97,7 @@ impl Assembly<'_> {
     }
 
     /// The members among ribs; a rib named by itself must be one.
-    fn members_of(&mut self, ribs: &[u32], names: &[Written]) -> Vec<u32> {
+    pub(super) fn members_of(&mut self, ribs: &[u32], names: &[Written]) -> Vec<u32> {
         let of_rib = |rib: u32| self.building.structure.member_of_rib.get(rib as usize).copied().flatten();
         let members: Vec<u32> = ribs.iter().filter_map(|&rib| of_rib(rib)).collect();
         if members.is_empty()

@@ -12,7 +12,7 @@ mod nodes;
 mod numbers;
 mod settings;
 mod supports;
-mod tables;
+pub(super) mod tables;
 mod targets;
 
 use std::collections::HashMap;
@@ -42,8 +42,12 @@ pub(super) struct Building {
     held: HashMap<u32, Held>,
     cases: HashMap<Box<str>, u32>,
     targets: targets::Targets,
+    /// Ribs by their datum `line`, once they are asked for.
+    lines: Option<std::collections::BTreeMap<Box<str>, Vec<u32>>>,
     /// Whether nodes are missing because a table could not be read.
     incomplete: bool,
+    /// Whether supports are missing for that reason.
+    unsupported: bool,
 }
 
 /// What a member says of itself.
