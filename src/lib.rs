@@ -38,3 +38,4 @@ pub mod ribs;
 pub mod run;
 pub mod sections;
 pub mod splines;
+pub mod structure;

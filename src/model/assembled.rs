@@ -88,6 +88,11 @@ impl RibModel {
         self.row_origin[i]
     }
 
+    /// Number of rows that constraints before this one make.
+    pub fn rows_before(&self, constraint: usize) -> usize {
+        self.row_origin.partition_point(|origin| (origin.constraint as usize) < constraint)
+    }
+
     /// Number of elements (objective, rows) and of kernels they share.
     pub fn elements(&self) -> (usize, usize, usize) {
         let count = |groups: &[Group]| groups.iter().map(Group::len).sum();
@@ -199,7 +204,7 @@ impl Model for RibModel {
     fn own(&self) -> Own {
         let auxiliaries = &self.problem.auxiliaries;
         let rows = match auxiliaries.first() {
-            Some(first) => self.row_origin.partition_point(|origin| (origin.constraint as usize) < first.constraints.start),
+            Some(first) => self.rows_before(first.constraints.start),
             None => self.meta.rows(),
         };
         Own { variables: self.meta.variables() - auxiliaries.len(), rows }

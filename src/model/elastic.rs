@@ -123,6 +123,7 @@ fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec
         row_upper: chosen(&base.row_upper),
         row_is_linear: rows.iter().map(|&i| base.is_row_linear(i)).collect(),
         objective_is_linear: true,
+        states: None,
         jacobian,
         hessian,
     }

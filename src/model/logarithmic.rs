@@ -55,6 +55,7 @@ impl Logarithmic {
             row_upper: limit(&user.row_upper),
             row_is_linear: monomial.clone(),
             objective_is_linear: false,
+            states: None,
             jacobian: user.jacobian.clone(),
             hessian,
         };

@@ -16,7 +16,10 @@ pub mod elastic;
 mod elements;
 pub mod evaluator;
 pub mod freed;
+pub mod lifted;
 pub mod logarithmic;
+pub mod mapped;
+pub mod reduced;
 pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -33,6 +36,8 @@ pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
+pub use lifted::{Lifted, States};
+pub use reduced::Reduced;
 pub use freed::{Freed, Limit};
 pub use rebounded::Rebounded;
 pub use substitution::Substitution;
@@ -59,6 +64,8 @@ pub struct Meta {
     pub objective_is_linear: bool,
     /// Where ∂c_i/∂x_j can be non-zero: m rows, columns below n.
     pub jacobian: Pattern,
+    /// Which variables are states, given by the design through as many equations; none in most models.
+    pub states: Option<States>,
     /// Where the Hessian of the Lagrangian can be non-zero: n rows, lower triangle (column ≤ row).
     pub hessian: Pattern,
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::expression::ast::Collection;
 use crate::expression::operators::{Binary, Fold, Unary};
+use crate::structure::beam::Force;
 
 /// A property or dimension of a cross-section, by its canonical name: `A`, `Ix`, `Iy`, `Wx`, `Wy`, `width`, `height`, a dimension.
 /// The index is into the list of the section kind's names, see [`crate::sections`]. One word can mean different things
@@ -41,6 +42,57 @@ pub enum Members {
     Listed(Arc<Vec<u32>>),
 }
 
+/// What a response is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Subject {
+    /// The structure.
+    Whole,
+    /// The row's own rib or node.
+    Own,
+    /// A rib.
+    Rib(u32),
+    /// A node.
+    Node(u32),
+}
+
+/// What a structure does under a case or combination.
+#[derive(Debug, Clone, PartialEq)]
+pub enum What {
+    /// A displacement or rotation of a node, 0 to 5.
+    Displacement(u8),
+    /// The ground's force or moment on a node.
+    Reaction(u8),
+    /// A rib's deflection from its chord along its z (true) or y, at a fraction of its length.
+    Deflection(bool, f64),
+    /// An internal force at a fraction of a rib's length.
+    Force(Force, f64),
+    /// Normal stress at a fraction and a point of the section.
+    Stress(f64, Arc<str>),
+    /// Shear stress there; torsion's share with this sign.
+    Shear(f64, Arc<str>, f64),
+    /// Work of the loads: pᵀu over free directions.
+    Compliance,
+    /// A rib's mass by its density (∫A dx).
+    Mass,
+    /// A basic force of a member: state equations are made of them.
+    Basic(u8),
+    /// What the supports of the simply supported member exert, see [`crate::structure::Beam::support_forces`].
+    Support(u8),
+    /// The force at an end in a global direction, of a member whose nodes move with the design: 0 to 11.
+    End(u8),
+}
+
+/// A response of the structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// The case or combination (cases first).
+    pub set: u32,
+    /// What it is of.
+    pub subject: Subject,
+    /// Which one.
+    pub what: What,
+}
+
 /// A resolved expression.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Formula {
@@ -71,6 +123,8 @@ pub enum Formula {
     /// `profile(depth, s)` where s follows from the item's data: a profile's number and its parameter, free of variables.
     /// (With a constant s it is a [`Formula::Fold`] of control variables.)
     Profile(u32, Box<Formula>),
+    /// What the structure does.
+    Response(Arc<Response>),
     /// A function of one argument.
     Unary(Unary, Box<Formula>),
     /// An operator.

@@ -21,6 +21,7 @@ mod range;
 pub mod ratio;
 pub mod resolve;
 pub mod settings;
+pub mod statics;
 pub mod structure;
 pub mod texts;
 pub mod words;
@@ -72,6 +73,10 @@ pub struct Problem {
     pub auxiliaries: Vec<kinks::Auxiliary>,
     /// What the ribs with nodes make up; `None` where there are none.
     pub structure: Option<Arc<structure::Structure>>,
+    /// The number of the first input that stands for a deformation or a displacement, in the inner problem of a structure.
+    pub first_input: u32,
+    /// What follows from it, see [`Problem::prepare`].
+    pub statics: Option<Arc<statics::Statics>>,
     /// `[solver]`.
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.
@@ -90,11 +95,17 @@ impl Scope {
 }
 
 impl Problem {
+    /// Works out what follows from the structure, where there is one: once everything else is known.
+    pub fn prepare(&mut self) {
+        self.statics = statics::Statics::of(self).map(Arc::new);
+    }
+
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
     pub fn variable_name(&self, j: usize) -> String {
         match self.variables.origin[j] {
             Origin::Scalar(entry) => self.variables.declared[entry as usize].to_string(),
             Origin::Element(entry, index) => format!("{}[{index}]", self.variables.declared[entry as usize]),
+            Origin::Input(at) => format!("input[{at}]"),
             Origin::Dimension(section, position) => {
                 let form = sections::form(self.sections.form[section as usize]);
                 format!("{}.{}", &self.sections.names[section as usize], form.dimensions[position as usize])
@@ -181,6 +192,8 @@ pub enum Origin {
     Element(u32, u32),
     /// `support.b`: a section and the position of the dimension in its form.
     Dimension(u32, u8),
+    /// What a structure's formulas take besides the design: a deformation or a displacement, by number.
+    Input(u32),
 }
 
 /// One dimension of one section, or one given number of it.

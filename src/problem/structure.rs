@@ -291,7 +291,7 @@ impl Structure {
     pub fn factors(&self, set: u32) -> Vec<(u32, f64)> {
         match (set as usize).checked_sub(self.cases.len()) {
             None => vec![(set, 1.0)],
-            Some(at) => self.combinations[at].factors.clone(),
+            Some(at) => self.combinations.get(at).map_or_else(Vec::new, |combination| combination.factors.clone()),
         }
     }
 

@@ -1,5 +1,6 @@
 //! `box`: outer width b and height h, wall thicknesses tw (webs, upright) and tf (flanges, level).
 
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
@@ -156,6 +157,36 @@ impl Kind for BoxBeam {
             }
             _ => return radius(self, graph, given, name),
         })
+    }
+
+    fn points(&self, _: &Form) -> Points {
+        Points { normal: CORNERS, upright: UPRIGHT, shear: &["left", "right", "top", "bottom"] }
+    }
+
+    /// Torsion by Bredt, T/(2·Am·t); shear V·S/(I·2t) at the middle of a wall, S of half the section.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let mut fibre = extreme(self, graph, given, point)?;
+        let (right, up) = direction(point)?;
+        let [b, h, tw, tf] = *given.dimensions else { return None };
+        let (upright, lying) = (Shape::of(graph, b, h, tw, tf), Shape::of(graph, h, b, tf, tw));
+        let (width, depth) = upright.middle_line(graph);
+        let twice = monomial(graph, 2.0, &[(width, 1.0), (depth, 1.0)]);
+        let wall = if right != 0 && up == 0 { upright.web } else { upright.flange };
+        if (right, up) != (0, 0) {
+            fibre.per_torque = Some(monomial(graph, 1.0, &[(twice, -1.0), (wall, -1.0)]));
+        }
+        let shear = |graph: &mut Graph, shape: &Shape| {
+            let (plastic, inertia) = (shape.plastic(graph), shape.moment(graph));
+            // Half the plastic modulus is the statical moment of half the section; two webs share it.
+            monomial(graph, 0.25, &[(plastic, 1.0), (inertia, -1.0), (shape.web, -1.0)])
+        };
+        match (right, up) {
+            (0, 0) => {}
+            (_, 0) => fibre.per_vz = Some(shear(graph, &upright)),
+            (0, _) => fibre.per_vy = Some(shear(graph, &lying)),
+            _ => {}
+        }
+        Some(fibre)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::fibre::{AROUND, Fibre, Points, UPRIGHT, around};
 use super::build::{monomial, radius};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
@@ -41,6 +42,18 @@ impl Kind for Circle {
             "perimeter" => power(PI, 1.0),
             _ => return radius(self, graph, given, name),
         })
+    }
+
+    fn points(&self, _: &Form) -> Points {
+        Points { normal: AROUND, upright: UPRIGHT, shear: AROUND }
+    }
+
+    /// Points on the circumference: shear 4V/3A where it lies across the force, torsion T·d/2J.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let (diameter, area, torsion) =
+            (self.property(graph, given, "width")?, self.property(graph, given, "A")?, self.property(graph, given, "J")?);
+        let per_force = monomial(graph, 4.0 / 3.0, &[(area, -1.0)]);
+        around(graph, diameter, per_force, torsion, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -1,6 +1,7 @@
 //! `general`: area, moments, torsion constant and moduli as numbers of their own, as rolled sections and bars of trusses have them.
 
 use super::build::radius;
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -49,6 +50,29 @@ impl Kind for General {
             Some(at) => given.dimensions.get(at).copied(),
             None => radius(self, graph, given, name),
         }
+    }
+
+    fn points(&self, form: &Form) -> Points {
+        let has = |name: &str| form.dimensions.contains(&name);
+        match (has("Wx"), has("Wy")) {
+            (true, true) => Points { normal: CORNERS, upright: UPRIGHT, shear: &[] },
+            (true, false) => Points { normal: UPRIGHT, upright: UPRIGHT, shear: &[] },
+            _ => Points { normal: &["centre"], upright: &["centre"], shear: &[] },
+        }
+    }
+
+    /// The edges lie where the moduli say: I/W from the centroid.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let (right, up) = direction(point)?;
+        let mut edge = |side: i8, moment: &str, modulus: &str| {
+            if side == 0 {
+                return Some(graph.constant(0.0));
+            }
+            let (moment, modulus) = (self.property(graph, given, moment)?, self.property(graph, given, modulus)?);
+            let distance = graph.divide(moment, modulus);
+            Some(graph.scale(f64::from(side), distance))
+        };
+        Some(Fibre::at(edge(right, "Iy", "Wy")?, edge(up, "Ix", "Wx")?))
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -6,6 +6,7 @@
 mod box_beam;
 mod build;
 mod circle;
+mod fibre;
 mod general;
 mod h_beam;
 mod outline;
@@ -19,6 +20,7 @@ mod tube;
 
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
+pub use fibre::{Fibre, Points};
 
 /// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it is drawn by points.
 pub struct Given<'a> {
@@ -80,6 +82,14 @@ pub trait Kind: Sync {
 
     /// The node of a property or dimension; `None` for a name it does not offer.
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId>;
+
+    /// The points at which stresses are looked at where none is named.
+    fn points(&self, _form: &Form) -> Points {
+        Points { normal: fibre::CORNERS, upright: fibre::UPRIGHT, shear: &[] }
+    }
+
+    /// A point by its name; `None` for a name it does not know.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre>;
 
     /// The areas of the parts whose frusta make up a rib's volume: the whole area, or web and flanges.
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId>;

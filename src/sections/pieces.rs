@@ -2,6 +2,7 @@
 //!
 //! Moments are sums over pairs of rectangles, a_i·a_j·(c_i − c_j)²/A, free of the cancellation of the parallel-axis theorem.
 
+use super::fibre::{Fibre, extreme};
 use super::build::{monomial, radius};
 use super::{Form, Given, Kind, evaluate};
 use crate::expression::graph::{Graph, NodeId};
@@ -251,6 +252,10 @@ impl Kind for ISection {
     }
 
     /// Web, upper and lower flange.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        extreme(self, graph, given, point)
+    }
+
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         let Some(shape) = IShape::of(graph, given) else { return Vec::new() };
         let pieces = shape.pieces(graph);
@@ -402,6 +407,10 @@ impl Kind for Channel {
     }
 
     /// Web, lower and upper flange.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        extreme(self, graph, given, point)
+    }
+
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         let Some(shape) = ChannelShape::of(graph, given) else { return Vec::new() };
         let pieces = shape.pieces(graph);
@@ -499,6 +508,10 @@ impl Kind for Angle {
     }
 
     /// The upright leg, and the level one beside it.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        extreme(self, graph, given, point)
+    }
+
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         Angle::pieces(graph, given).map_or_else(Vec::new, |pieces| pieces.areas(graph))
     }

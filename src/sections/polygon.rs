@@ -1,5 +1,6 @@
 //! `polygon`: any simple polygon, with or without holes, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
 
+use super::fibre::{Fibre, extreme};
 use super::build::monomial;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
@@ -84,6 +85,10 @@ impl Kind for Polygon {
         };
         let powers: Vec<_> = [(x, x_power), (y, y_power)].into_iter().filter(|(_, power)| *power > 0.0).collect();
         Some(monomial(graph, factor, &powers))
+    }
+
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

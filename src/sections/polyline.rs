@@ -6,6 +6,7 @@
 //! The outline's vertices are linear in the thicknesses ([`Centreline::outline`]), so that every property is an exact expression in them. Which corners
 //! are mitred or cut depends on the points alone, never on the thicknesses.
 
+use super::fibre::{self, Fibre};
 use super::build::{extreme, monomial};
 use super::outline::Outline;
 use super::{Form, Given, Kind, not_positive};
@@ -173,6 +174,10 @@ impl Kind for Polyline {
             "clear" => outline.clear(graph),
             _ => None,
         }
+    }
+
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        fibre::extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -1,5 +1,6 @@
 //! `rectangle`: width b, height h.
 
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, extreme};
 use super::build::{monomial, radius};
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
@@ -47,6 +48,30 @@ impl Kind for Rectangle {
         })
     }
 
+    fn points(&self, _: &Form) -> Points {
+        Points { normal: CORNERS, upright: UPRIGHT, shear: &["left", "right", "top", "bottom"] }
+    }
+
+    /// At the middle of a side shear is 3V/2A along it, and torsion
+    /// T·b/J·[1 − 8/π²·Σ 1/(n²·cosh(nπh/2b))] over odd n, h that side and b the other (Timoshenko and Goodier, *Theory of Elasticity*, §109);
+    /// at corners neither is.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let (b, h) = (given.dimensions[0], given.dimensions[1]);
+        let mut fibre = extreme(self, graph, given, point)?;
+        let shear = monomial(graph, 1.5, &[(b, -1.0), (h, -1.0)]);
+        match point {
+            "left" | "right" => {
+                (fibre.per_vz, fibre.per_torque) = (Some(shear), Some(torsion_at_side(graph, h, b)));
+            }
+            "top" | "bottom" => {
+                (fibre.per_vy, fibre.per_torque) = (Some(shear), Some(torsion_at_side(graph, b, h)));
+            }
+            "centre" => (fibre.per_vy, fibre.per_vz) = (Some(shear), Some(shear)),
+            _ => {}
+        }
+        Some(fibre)
+    }
+
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         vec![graph.multiply(given.dimensions[0], given.dimensions[1])]
     }
@@ -82,4 +107,22 @@ fn torsion(graph: &mut Graph, b: NodeId, h: NodeId) -> NodeId {
     let share = graph.subtract(one, lost);
     let narrow = monomial(graph, 1.0 / 3.0, &[(b, 3.0), (h, 1.0)]);
     graph.multiply(narrow, share)
+}
+
+/// Shear stress per torque at the middle of a side, the other side given second.
+fn torsion_at_side(graph: &mut Graph, side: NodeId, other: NodeId) -> NodeId {
+    let ratio = graph.divide(side, other);
+    let terms: Vec<NodeId> = [1.0, 3.0, 5.0, 7.0, 9.0]
+        .into_iter()
+        .map(|n: f64| {
+            let argument = graph.scale(0.5 * std::f64::consts::PI * n, ratio);
+            let cosh = graph.unary(Unary::Cosh, argument);
+            let numerator = graph.constant(-8.0 / (std::f64::consts::PI.powi(2) * n * n));
+            graph.divide(numerator, cosh)
+        })
+        .collect();
+    let (one, series) = (graph.constant(1.0), graph.sum(&terms));
+    let (share, inertia) = (graph.add(one, series), torsion(graph, side, other));
+    let moment = graph.multiply(other, share);
+    graph.divide(moment, inertia)
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::fibre::{Fibre, extreme};
 use super::build::monomial;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
@@ -49,6 +50,10 @@ impl Kind for Superellipse {
             }
             _ => return None,
         })
+    }
+
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

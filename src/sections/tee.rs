@@ -1,5 +1,6 @@
 //! `tee`: a web tw × hw under a flange b × tf, overall height h = hw + tf.
 
+use super::fibre::{Fibre, Points, UPRIGHT, direction, extreme};
 use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
@@ -21,6 +22,9 @@ static PARTS: [[[Length; 2]; 2]; 3] = [
     [[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
     [[Length::of(0), Length::difference(3, 1.0, 2)], [Length::of(1), Length::of(2)]],
 ];
+
+/// The flange's tips; of the web the lower corners, inside its width.
+const TIPS: &[&str] = &["top-left", "top-right", "bottom"];
 
 struct Shape {
     tw: NodeId,
@@ -199,6 +203,38 @@ impl Kind for Tee {
             }
             _ => return radius(self, graph, given, name),
         })
+    }
+
+    fn points(&self, _: &Form) -> Points {
+        Points { normal: TIPS, upright: UPRIGHT, shear: &["junction", "centre"] }
+    }
+
+    /// In the web, shear is V·S/(Ix·tw) with S the statical moment of what lies outside; torsion t·T/J.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let shape = Shape::of(graph, given)?;
+        let (inertia, torsion) = (shape.ix(graph), self.property(graph, given, "J")?);
+        let (top, bottom) = (shape.to_top(graph), shape.to_bottom(graph));
+        let (y, statical) = match point {
+            "junction" => {
+                let flange = shape.flange(graph);
+                let half = graph.scale(0.5, shape.tf);
+                let (y, arm) = (graph.subtract(top, shape.tf), graph.subtract(top, half));
+                (y, graph.multiply(flange, arm))
+            }
+            // Everything below the centroid: tw·y_bottom²/2.
+            "centre" => (graph.constant(0.0), monomial(graph, 0.5, &[(shape.tw, 1.0), (bottom, 2.0)])),
+            _ => {
+                let mut fibre = extreme(self, graph, given, point)?;
+                let (_, up) = direction(point)?;
+                let wall = if up > 0 { shape.tf } else { shape.tw };
+                fibre.per_torque = Some(graph.divide(wall, torsion));
+                return Some(fibre);
+            }
+        };
+        let mut fibre = Fibre::at(graph.constant(0.0), y);
+        fibre.per_vz = Some(monomial(graph, 1.0, &[(statical, 1.0), (inertia, -1.0), (shape.tw, -1.0)]));
+        fibre.per_torque = Some(graph.divide(shape.tw, torsion));
+        Some(fibre)
     }
 
     /// Web and flange.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::fibre::{AROUND, Fibre, Points, UPRIGHT, around};
 use super::build::{monomial, radius, symmetric_modulus};
 use super::{Form, Given, Kind, circle};
 use crate::expression::graph::{Graph, NodeId};
@@ -67,6 +68,18 @@ impl Kind for Tube {
             "perimeter" => graph.scale(PI, d),
             _ => return radius(self, graph, given, name),
         })
+    }
+
+    fn points(&self, _: &Form) -> Points {
+        Points { normal: AROUND, upright: UPRIGHT, shear: AROUND }
+    }
+
+    /// Points on the circumference: shear 2V/A (thin walls) where it lies across the force, torsion T·d/2J.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        let (diameter, area, torsion) =
+            (self.property(graph, given, "width")?, self.property(graph, given, "A")?, self.property(graph, given, "J")?);
+        let per_force = monomial(graph, 2.0, &[(area, -1.0)]);
+        around(graph, diameter, per_force, torsion, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -112,6 +112,7 @@ impl Assembly<'_> {
                 self.declared_at.get(&**name).copied().unwrap_or(Place::Whole)
             }
             Origin::Dimension(section, position) => self.dimension_place(section, position),
+            Origin::Input(_) => Place::Whole,
         }
     }
 

@@ -1,6 +1,7 @@
 //! What one item brings to a template: its variables and numbers, and the shape that decides whose template it may use.
 
 use super::lower::{Item, OwnNumber, cell, end_section};
+use super::member::Framework;
 use super::plan::Plan;
 use crate::problem::formula::{End, Formula};
 use crate::problem::{Dimension, Problem};
@@ -41,8 +42,28 @@ impl Gathered {
                 self.numbers.push(number.of(problem, item));
             }
         }
+        if !self.member(plan, problem, item) {
+            return false;
+        }
         for &variable in &plan.globals {
             self.variable(variable);
+        }
+        true
+    }
+
+    /// The rib as a member of the structure.
+    fn member(&mut self, plan: &Plan, problem: &Problem, item: Item) -> bool {
+        if plan.sets.is_empty() {
+            return true;
+        }
+        let Some(framework) = Framework::of(problem) else { return false };
+        let Item::Rib(rib) = item else { return false };
+        let Some(member) = framework.structure.member(rib).filter(|&member| framework.is_plain(member)) else { return false };
+        for &set in &plan.sets {
+            let (numbers, loads) = framework.numbers(member, set);
+            self.numbers.extend(numbers);
+            framework.shape(member, &loads, &mut self.shape);
+            framework.inputs(member, set).into_iter().flatten().for_each(|input| self.variable(input));
         }
         true
     }

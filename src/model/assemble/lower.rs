@@ -1,5 +1,6 @@
 //! From resolved formulas to expression graphs over local slots.
 
+mod response;
 mod volumes;
 
 use std::collections::HashMap;
@@ -11,6 +12,8 @@ use crate::expression::operators::{Binary, Fold};
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::Law;
+use super::member::{Framework, MemberNodes};
+pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.
 #[derive(Debug, Clone, Copy)]
@@ -89,6 +92,8 @@ pub(super) struct Lowering<'a> {
     definitions: HashMap<u32, NodeId>,
     /// Linked dimensions, by section and formula.
     links: HashMap<(u32, u32), NodeId>,
+    /// Members of the structure, by number and case or combination.
+    members: HashMap<(u32, u32), MemberNodes>,
     /// Slots for numbers are given out: further numbers belong to other items and are literals.
     closed: bool,
 }
@@ -131,6 +136,7 @@ impl<'a> Lowering<'a> {
             own_numbers: HashMap::new(),
             definitions: HashMap::new(),
             links: HashMap::new(),
+            members: HashMap::new(),
             closed: false,
         }
     }
@@ -153,6 +159,23 @@ impl<'a> Lowering<'a> {
         let node = self.number(which.of(self.problem, item));
         self.own_numbers.insert((item, which), node);
         node
+    }
+
+    /// The slots of the rib that is the item as a member of the structure.
+    pub fn own_member(&mut self, rib: u32, set: u32) {
+        if let Some(framework) = Framework::of(self.problem)
+            && let Some(member) = framework.structure.member(rib)
+        {
+            self.member(framework, member, set);
+        }
+    }
+
+    /// The dimensions of a section at the end of a member: those of the item where it is the item's.
+    fn item_section(&mut self, section: u32) -> Rc<[NodeId]> {
+        match self.own_sections.get(&section) {
+            Some(nodes) => Rc::clone(nodes),
+            None => self.named_section(section),
+        }
     }
 
     /// Ends the giving out of slots for numbers.
@@ -246,6 +269,7 @@ impl<'a> Lowering<'a> {
                     self.property(*section, &dimensions, property)
                 }
             },
+            Formula::Response(response) => self.response(response, context),
             Formula::Profile(profile, at) => self.profile(*profile, at, context),
             Formula::RibVolume(rib) => self.rib_volume(*rib, law_of(self.problem, *rib, Total::Own)),
             Formula::Volume(total) => self.volume(*total),

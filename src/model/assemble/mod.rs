@@ -5,6 +5,7 @@ mod facts;
 mod gathered;
 mod groups;
 mod lower;
+mod member;
 mod plan;
 mod profile;
 mod sum;
@@ -25,6 +26,7 @@ pub use classify::{Classification, classify};
 use facts::Facts;
 use groups::{Groups, Kernels};
 use lower::{Context, Item};
+pub(super) use lower::support_rows;
 use sum::{Summation, Templates};
 pub use volumes::volumes;
 use walk::Walk;
@@ -229,6 +231,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         row_upper: rows.upper,
         row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),
         objective_is_linear: objective_groups.is_empty(),
+        states: None,
         jacobian,
         hessian,
     };

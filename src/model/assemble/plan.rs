@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::lower::{Item, OwnNumber, end_section};
-use crate::problem::formula::{End, Formula};
+use crate::problem::formula::{End, Formula, Subject, What};
 use crate::problem::{Dimension, Problem};
 
 /// The names a formula uses, in a fixed order.
@@ -14,6 +14,8 @@ pub(super) struct Plan {
     from: bool,
     to: bool,
     pub(super) numbers: Vec<OwnNumber>,
+    /// Cases and combinations in which it asks for what the item does as a member of the structure.
+    pub(super) sets: Vec<u32>,
     /// Variables it names globally.
     pub(super) globals: Vec<u32>,
     /// False where a name reaches beyond the item: each item is then compiled by itself.
@@ -73,6 +75,15 @@ impl Plan {
                 (self.from, self.to) = (true, true);
                 self.number(OwnNumber::Length);
             }
+            Formula::Response(response) => match response.subject {
+                Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_)) => {
+                    (self.from, self.to) = (true, true);
+                    if !self.sets.contains(&response.set) {
+                        self.sets.push(response.set);
+                    }
+                }
+                _ => self.shareable = false,
+            },
             // A profile's weights and even its variables differ from item to item.
             Formula::RibVolume(_) | Formula::Volume(_) | Formula::Over { .. } | Formula::Profile(..) => self.shareable = false,
         }
@@ -147,6 +158,9 @@ impl Plan {
         }
         for &number in &self.numbers {
             lowering.own_number(item, number);
+        }
+        if let Item::Rib(rib) = item {
+            self.sets.iter().for_each(|&set| lowering.own_member(rib, set));
         }
         lowering.close();
         for &variable in &self.globals {

@@ -44,6 +44,7 @@ impl Part {
                 row_upper: row(&meta.row_upper),
                 row_is_linear: rows.iter().map(|&i| meta.row_is_linear[i as usize]).collect(),
                 objective_is_linear: objective_groups.is_empty(),
+                states: None,
                 jacobian,
                 hessian,
             },

@@ -1,0 +1,194 @@
+//! The matrix ∂R/∂u of one block: factorised, solved with, and looked at for mechanisms.
+
+use crate::linear_algebra::{FactorizationError, Pattern, SymmetricSolver};
+use crate::math::split_mix::SplitMix;
+use crate::model::lifted::States;
+use crate::model::{EvaluationError, Meta, Model};
+
+/// A structure is a mechanism where the smallest eigenvalue of its stiffness, scaled to a unit diagonal, is below this: rounding leaves about
+/// 1e−16 of a zero; a chain of a thousand members in bending has 1e−12.
+const SINGULAR: f64 = 1e-14;
+
+/// What is added to the scaled diagonal so that a singular matrix can be factorised for inverse iteration.
+const SHIFT: f64 = 1e-11;
+
+/// The block of the states: lower triangle by rows, and where each value stands in the lifted Jacobian.
+pub struct Stiffness {
+    states: States,
+    pattern: Pattern,
+    places: Vec<usize>,
+    solver: Option<SymmetricSolver>,
+    /// D = diag(K)^(−1/2).
+    scales: Vec<f64>,
+}
+
+/// A motion without resistance, by state of a block; its largest component is 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mechanism {
+    /// The motion.
+    pub motion: Vec<f64>,
+}
+
+fn failed(cause: impl ToString) -> EvaluationError {
+    EvaluationError::Invalid { term: "analysis of the structure".into(), cause: cause.to_string() }
+}
+
+impl Stiffness {
+    /// Where the block stands; nothing is evaluated.
+    pub fn of(meta: &Meta, states: States) -> Self {
+        let (n, m) = (states.first_variable, states.first_row);
+        let (mut positions, mut places) = (Vec::new(), Vec::new());
+        if states.blocks > 0 {
+            for equation in 0..states.block {
+                for at in meta.jacobian.range(m + equation) {
+                    if let Some(state) = (meta.jacobian.columns[at] as usize).checked_sub(n).filter(|&state| state <= equation) {
+                        positions.push((equation as u32, state as u32));
+                        places.push(at);
+                    }
+                }
+            }
+        }
+        let pattern = Pattern::from_positions(states.block, &mut positions);
+        let solver = SymmetricSolver::new(&pattern.offsets, &pattern.columns).ok();
+        Stiffness { states, pattern, places, solver, scales: vec![1.0; states.block] }
+    }
+
+    fn values<M: Model>(&self, lifted: &M, z: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let mut jacobian = vec![0.0; lifted.meta().jacobian.len()];
+        lifted.jacobian(z, &mut jacobian)?;
+        Ok(self.places.iter().map(|&at| jacobian[at]).collect())
+    }
+
+    /// The values scaled to a unit diagonal; directions without stiffness keep their zeros.
+    fn scaled(&mut self, mut values: Vec<f64>) -> Vec<f64> {
+        self.scales = (0..self.states.block)
+            .map(|row| match self.pattern.position(row, row as u32).map(|at| values[at]) {
+                Some(diagonal) if diagonal > 0.0 => 1.0 / diagonal.sqrt(),
+                _ => 1.0,
+            })
+            .collect();
+        for (at, (row, column)) in self.pattern.iter().enumerate() {
+            values[at] *= self.scales[row] * self.scales[column];
+        }
+        values
+    }
+
+    fn factor(&mut self, values: &[f64]) -> Result<bool, FactorizationError> {
+        let order = self.states.block;
+        match &mut self.solver {
+            Some(solver) => solver.factor(values).map(|inertia| inertia.positive == order),
+            None => Err(FactorizationError::Singular),
+        }
+    }
+
+    /// Design and states.
+    pub fn solve_states<M: Model>(&mut self, lifted: &M, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let number = self.states.block * self.states.blocks;
+        let mut z = x.to_vec();
+        z.resize(x.len() + number, 0.0);
+        if number == 0 {
+            return Ok(z);
+        }
+        let values = self.values(lifted, &z)?;
+        let scaled = self.scaled(values);
+        if !self.factor(&scaled).map_err(failed)? {
+            return Err(failed("the structure is a mechanism: a motion meets no resistance"));
+        }
+        // R is linear in u: one step is exact, a second takes away what rounding left.
+        for _ in 0..2 {
+            let mut rows = vec![0.0; lifted.meta().rows()];
+            lifted.constraints(&z, &mut rows)?;
+            let first = self.states.first_row;
+            let mut step: Vec<f64> = rows[first..].iter().zip(&lifted.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
+            self.solve(&mut step)?;
+            z[x.len()..].iter_mut().zip(&step).for_each(|(state, step)| *state += step);
+        }
+        if z.iter().all(|value| value.is_finite()) { Ok(z) } else { Err(failed("displacements overflow")) }
+    }
+
+    /// K⁻¹·right, block by block, in place.
+    pub fn solve(&self, right: &mut [f64]) -> Result<(), EvaluationError> {
+        let Some(solver) = &self.solver else { return Err(failed(FactorizationError::Singular)) };
+        let mut solution = vec![0.0; self.states.block];
+        for block in right.chunks_mut(self.states.block.max(1)) {
+            block.iter_mut().zip(&self.scales).for_each(|(value, scale)| *value *= scale);
+            solver.solve(block, &mut solution).map_err(failed)?;
+            block.iter_mut().zip(&solution).zip(&self.scales).for_each(|((value, solution), scale)| *value = solution * scale);
+        }
+        Ok(())
+    }
+
+    /// The smallest eigenvalue's motion by inverse iteration, where it is none but for rounding.
+    pub fn mechanism<M: Model>(&mut self, lifted: &M, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
+        let order = self.states.block;
+        let mut z = x.to_vec();
+        z.resize(x.len() + order * self.states.blocks, 0.0);
+        if order == 0 {
+            return Ok(None);
+        }
+        let values = self.values(lifted, &z)?;
+        let scaled = self.scaled(values);
+        let mut shifted = scaled.clone();
+        for (at, (row, column)) in self.pattern.iter().enumerate() {
+            shifted[at] += if row == column { SHIFT } else { 0.0 };
+        }
+        self.factor(&shifted).map_err(failed)?;
+        let mut random = SplitMix::new(1);
+        let mut motion: Vec<f64> = (0..order).map(|_| random.uniform() - 0.5).collect();
+        let mut next = vec![0.0; order];
+        for _ in 0..6 {
+            self.solver.as_ref().map_or(Ok(()), |solver| solver.solve_once(&motion, &mut next)).map_err(failed)?;
+            let size = next.iter().map(|value| value * value).sum::<f64>().sqrt();
+            motion.iter_mut().zip(&next).for_each(|(value, next)| *value = next / size);
+        }
+        let energy = quadratic(&self.pattern, &scaled, &motion);
+        if energy > SINGULAR || energy.is_nan() {
+            return Ok(None);
+        }
+        motion.iter_mut().zip(&self.scales).for_each(|(value, scale)| *value *= scale);
+        let largest = motion.iter().fold(0.0, |most: f64, value| if value.abs() > most.abs() { *value } else { most });
+        motion.iter_mut().for_each(|value| *value /= largest);
+        Ok(Some(Mechanism { motion }))
+    }
+}
+
+/// vᵀAv from the lower triangle of A.
+fn quadratic(pattern: &Pattern, values: &[f64], v: &[f64]) -> f64 {
+    let term = |(at, (row, column)): (usize, (usize, usize))| {
+        let factor = if row == column { 1.0 } else { 2.0 };
+        factor * values[at] * v[row] * v[column]
+    };
+    pattern.iter().enumerate().map(term).sum()
+}
+
+/// [I U]ᵀ·H·[I; U] for the lower triangle of H over design and states, as a dense lower triangle by rows.
+pub(super) fn congruence(pattern: &Pattern, hessian: &[f64], columns: &[Vec<f64>], values: &mut [f64]) {
+    let n = columns.len();
+    values.fill(0.0);
+    let triangle = |row: usize, column: usize| row.max(column) * (row.max(column) + 1) / 2 + row.min(column);
+    // H·[I; U]: products of every state row, then of the mixed ones.
+    let states = pattern.rows() - n;
+    let mut through = vec![vec![0.0; states]; n];
+    for (at, (row, column)) in pattern.iter().enumerate() {
+        let value = hessian[at];
+        match (row.checked_sub(n), column.checked_sub(n)) {
+            (None, _) => values[triangle(row, column)] += value,
+            (Some(state), None) => through[column][state] += value,
+            (Some(left), Some(right)) => {
+                for (j, column) in columns.iter().enumerate() {
+                    // Half of Uᵀ·L_uu·U: the other half comes with the transposed product below.
+                    through[j][left] += 0.5 * value * column[right];
+                    if left != right {
+                        through[j][right] += 0.5 * value * column[left];
+                    }
+                }
+            }
+        }
+    }
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for i in 0..n {
+        for j in 0..=i {
+            values[triangle(i, j)] += dot(&through[i], &columns[j]) + dot(&through[j], &columns[i]);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Gauss's rule on pieces of a member.
+
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Points per piece where the integrand is a polynomial over E·I of a tapered member: with the largest ratio of a dimension between a
+/// piece's ends below 3, ∫dx/h³ is exact to 8e−12 (measured; 12 points).
+pub const TAPERED: usize = 12;
+
+/// Points per piece where the integrand is a polynomial of degree 7 at the most: exact.
+pub const POLYNOMIAL: usize = 4;
+
+/// Points and weights on [0, 1].
+///
+/// ```
+/// use ribopt::structure::quadrature::gauss;
+/// let fifth: f64 = gauss(4).iter().map(|(x, weight)| weight * x.powi(5)).sum();
+/// assert!((fifth - 1.0 / 6.0).abs() < 1e-15);
+/// ```
+pub fn gauss(points: usize) -> Vec<(f64, f64)> {
+    (0..points).map(|at| point(points, at)).collect()
+}
+
+/// The root of the Legendre polynomial P_n by Newton's method from Chebyshev's estimate, and its weight.
+fn point(n: usize, at: usize) -> (f64, f64) {
+    let mut x = (PI * (at as f64 + 0.75) / (n as f64 + 0.5)).cos();
+    let mut slope = 1.0;
+    for _ in 0..100 {
+        let (value, derivative) = legendre(n, x);
+        slope = derivative;
+        let step = value / derivative;
+        x -= step;
+        if step.abs() < 1e-16 {
+            slope = legendre(n, x).1;
+            break;
+        }
+    }
+    (0.5 * (1.0 - x), 1.0 / ((1.0 - x * x) * slope * slope))
+}
+
+/// P_n(x) and its derivative, by the three-term recurrence.
+fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut before, mut value) = (1.0, x);
+    for k in 2..=n {
+        let k = k as f64;
+        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+    }
+    (value, n as f64 * (x * value - before) / (x * x - 1.0))
+}
+
+/// Points and weights on [0, 1] cut at `breaks` (ascending, inside).
+pub fn pieces(breaks: &[f64], tapered: bool) -> Vec<(f64, f64)> {
+    static RULES: OnceLock<[Vec<(f64, f64)>; 2]> = OnceLock::new();
+    let rules = RULES.get_or_init(|| [gauss(POLYNOMIAL), gauss(TAPERED)]);
+    let rule = &rules[usize::from(tapered)];
+    let ends: Vec<f64> = std::iter::once(0.0).chain(breaks.iter().copied()).chain([1.0]).collect();
+    let piece = |ends: &[f64]| {
+        let (start, width) = (ends[0], ends[1] - ends[0]);
+        rule.iter().map(move |(x, weight)| (start + width * x, width * weight))
+    };
+    ends.windows(2).flat_map(piece).collect()
+}
+
+/// Breaks that cut a member whose dimensions change by up to `ratio` between its ends into pieces over which they change by 3 at
+/// the most: equal ratios for growing and for shrinking dimensions.
+pub fn graded(ratio: f64) -> Vec<f64> {
+    const LARGEST: f64 = 3.0;
+    if !(ratio > LARGEST) || !ratio.is_finite() {
+        return Vec::new();
+    }
+    let pieces = (ratio.ln() / LARGEST.ln()).ceil() as i32;
+    let growing = (1..pieces).map(|k| (ratio.powf(f64::from(k) / f64::from(pieces)) - 1.0) / (ratio - 1.0));
+    let mut breaks: Vec<f64> = growing.flat_map(|at| [at, 1.0 - at]).collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+    breaks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn twelve_points_integrate_polynomials_of_degree_23() {
+        for degree in 0..24 {
+            let sum: f64 = gauss(TAPERED).iter().map(|(x, weight)| weight * x.powi(degree)).sum();
+            assert!((sum * f64::from(degree + 1) - 1.0).abs() < 1e-14, "{degree}: {sum}");
+        }
+    }
+
+    /// ∫dx/(1 + (ρ−1)x)³ = (1 − 1/ρ²)/(2(ρ − 1)), either way round.
+    #[test]
+    fn graded_pieces_follow_steep_tapers() {
+        for ratio in [2.5, 6.0, 20.0] {
+            let exact = (1.0 - 1.0 / (ratio * ratio)) / (2.0 * (ratio - 1.0));
+            for reversed in [false, true] {
+                let height = |x: f64| 1.0 + (ratio - 1.0) * if reversed { 1.0 - x } else { x };
+                let sum: f64 = pieces(&graded(ratio), true).iter().map(|&(x, w)| w / height(x).powi(3)).sum();
+                assert!((sum / exact - 1.0).abs() < 1e-11, "{ratio} {reversed}: {sum} {exact}");
+            }
+        }
+    }
+}
