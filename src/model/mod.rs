@@ -19,8 +19,8 @@ pub mod freed;
 pub mod lifted;
 pub mod logarithmic;
 pub mod mapped;
-pub mod reduced;
 pub mod rebounded;
+pub mod reduced;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod scaled;
@@ -36,10 +36,10 @@ pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
-pub use lifted::{Lifted, States};
-pub use reduced::Reduced;
 pub use freed::{Freed, Limit};
+pub use lifted::{Lifted, States};
 pub use rebounded::Rebounded;
+pub use reduced::Reduced;
 pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.

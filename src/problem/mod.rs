@@ -16,6 +16,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+pub mod precheck;
 pub mod profile;
 mod range;
 pub mod ratio;

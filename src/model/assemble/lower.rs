@@ -6,13 +6,13 @@ mod volumes;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use super::member::{Framework, MemberNodes};
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::Law;
-use super::member::{Framework, MemberNodes};
 pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.

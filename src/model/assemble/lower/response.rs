@@ -66,9 +66,8 @@ impl Lowering<'_> {
     /// A member whose nodes or modulus vary with the design: everything as formulas of them and of its ends' displacements.
     fn varying_member(&mut self, framework: Framework, member: u32, set: u32) -> MemberNodes {
         let (declared, prepared) = framework.member(member);
-        let ends = [declared.start, declared.end].map(|node| {
-            framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate))
-        });
+        let ends = [declared.start, declared.end]
+            .map(|node| framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate)));
         let arm = declared.offset;
         let between: [NodeId; 3] = std::array::from_fn(|axis| {
             let chord = self.graph.subtract(ends[1][axis], ends[0][axis]);
@@ -271,4 +270,3 @@ pub(in crate::model) fn support_rows<A: Algebra>(
         along(algebra, 1, e3, offset[1]),
     ]
 }
-

@@ -72,7 +72,7 @@ impl Assembly<'_> {
             self.findings.mistake(row.place(columns.case), "this load has no case", "name its load case");
             return;
         }
-        let case = self.case(row.field(columns.case));
+        let case = self.case(row.field(columns.case), row.place(columns.case));
         let targets = [columns.node, columns.rib, columns.line].map(|at| filled(row, at));
         let (effect, targets) = match targets {
             [Some(node), None, None] => (self.nodal_cells(row, columns), self.targets(Target::Nodes, &row.written(node))),
