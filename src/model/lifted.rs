@@ -7,7 +7,7 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::mapped::{Maps, Mapped, Rows};
+use super::mapped::{Mapped, Maps, Rows};
 use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
@@ -69,7 +69,13 @@ impl Lifted {
         inputs(structure, statics, &numbering, &mut maps);
         let limits = equations::outputs(&inner, structure, statics, &numbering, &mut maps);
         let meta = outer_meta(inner.meta(), states, &limits);
-        Ok(Lifted { model: Mapped::new(inner, maps, meta), problem: Arc::clone(problem), states, directions, row_names: first_row })
+        Ok(Lifted {
+            model: Mapped::new(inner, maps, meta),
+            problem: Arc::clone(problem),
+            states,
+            directions,
+            row_names: first_row,
+        })
     }
 
     /// Its states.

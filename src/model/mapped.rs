@@ -129,7 +129,8 @@ impl<M: Model> Mapped<M> {
     /// Bx + b.
     pub fn inward(&self, x: &[f64]) -> Vec<f64> {
         let inputs = &self.maps.inputs;
-        let value = |(at, constant): (usize, &f64)| constant + inputs.row(at).iter().map(|&(j, b)| b * x[j as usize]).sum::<f64>();
+        let value =
+            |(at, constant): (usize, &f64)| constant + inputs.row(at).iter().map(|&(j, b)| b * x[j as usize]).sum::<f64>();
         self.maps.constants.iter().enumerate().map(value).collect()
     }
 }

@@ -20,13 +20,13 @@ pub mod freed;
 pub mod lifted;
 pub mod logarithmic;
 pub mod mapped;
-pub mod reduced;
-pub mod structural;
 pub mod rebounded;
+pub mod reduced;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod scaled;
 mod stretches;
+pub mod structural;
 pub mod substitution;
 
 use thiserror::Error;
@@ -38,11 +38,11 @@ pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
+pub use freed::{Freed, Limit};
 pub use lifted::{Lifted, States};
+pub use rebounded::Rebounded;
 pub use reduced::Reduced;
 pub use structural::{Assembled, WithDisplacements, assemble_any};
-pub use freed::{Freed, Limit};
-pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.

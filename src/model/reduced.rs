@@ -91,7 +91,8 @@ impl<M: WithStates> Reduced<M> {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for row in self.states.first_row..meta.rows() {
             let of_state = |at: &usize| meta.jacobian.columns[*at] as usize >= self.states.first_variable;
-            let terms = meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
+            let terms =
+                meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
             worst = worst.max((rows[row] - meta.row_upper[row]).abs());
             largest = largest.max(terms.sum::<f64>() + meta.row_upper[row].abs());
         }

@@ -16,6 +16,7 @@ pub mod names;
 pub(crate) mod nearest;
 pub mod order;
 pub mod pattern;
+pub mod precheck;
 pub mod profile;
 mod range;
 pub mod ratio;
@@ -102,7 +103,8 @@ impl Problem {
 
     /// Whether the objective or a row asks what the structure does.
     pub fn analyses(&self) -> bool {
-        let rows = self.constraints.iter().flat_map(|constraint| [&constraint.left].into_iter().chain(constraint.right.formulas()));
+        let rows =
+            self.constraints.iter().flat_map(|constraint| [&constraint.left].into_iter().chain(constraint.right.formulas()));
         let mut known = vec![None; self.definitions.len()];
         self.statics.is_some() && rows.chain([&self.objective]).any(|formula| formula.analyses(self, &mut known))
     }

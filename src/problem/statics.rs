@@ -7,10 +7,10 @@
 use super::structure::{Action, DIRECTIONS, Plane, Structure};
 use super::{Dimension, Problem};
 use crate::structure::Components;
+use crate::structure::algebra::Numbers;
 use crate::structure::axes::{Frame, Rule, frame};
 use crate::structure::deformation::{BASIC, Rows, rows};
 use crate::structure::quadrature::graded;
-use crate::structure::algebra::Numbers;
 
 /// The largest ratio of a dimension between a member's ends that its integrals are graded for.
 const STEEPEST: f64 = 1e3;
@@ -147,17 +147,22 @@ pub fn position(problem: &Problem, structure: &Structure, node: u32) -> [f64; 3]
     })
 }
 
+/// The rule of a member's axes, by its direction at the start.
+pub(super) fn rule_of(plane: Plane, member: &super::structure::Member, along: [f64; 3]) -> Rule {
+    match (member.up, plane) {
+        (Some(up), _) => Rule::Towards(up),
+        (None, Plane::Xz) => Rule::LeftInXz,
+        (None, Plane::Xy) => Rule::LeftInXy,
+        (None, Plane::Space) => Rule::in_space(along),
+    }
+}
+
 fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::Member) -> Prepared {
     let ends = [member.start, member.end];
     let [start, end] = ends.map(|node| position(problem, structure, node));
     let along: [f64; 3] =
         std::array::from_fn(|axis| (end[axis] + member.offset[1][axis]) - (start[axis] + member.offset[0][axis]));
-    let rule = match (member.up, structure.plane) {
-        (Some(up), _) => Rule::Towards(up),
-        (None, Plane::Xz) => Rule::LeftInXz,
-        (None, Plane::Xy) => Rule::LeftInXy,
-        (None, Plane::Space) => Rule::in_space(along),
-    };
+    let rule = rule_of(structure.plane, member, along);
     let frame = frame(&mut Numbers, along, rule, member.roll);
     let rows = rows(&mut Numbers, &frame, member.offset);
     let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
@@ -168,7 +173,7 @@ fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::
 }
 
 /// Basic forces that neither a hinge releases nor a plane leaves without a displacement to work on.
-fn components(plane: Plane, member: &super::structure::Member, rows: &Rows<f64>) -> Components {
+pub(super) fn components(plane: Plane, member: &super::structure::Member, rows: &Rows<f64>) -> Components {
     let [start, end] = member.hinges;
     let released = match member.pinned {
         true => [false, true, true, true, true, true],

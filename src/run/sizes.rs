@@ -98,7 +98,7 @@ pub(super) fn rib_volumes(
     }
     restated.constraints = vec![Constraint {
         detail: Box::default(),
-name: "volume".into(),
+        name: "volume".into(),
         place: String::new(),
         text: String::new(),
         scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),

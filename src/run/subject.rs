@@ -9,8 +9,7 @@ use crate::input::{self, Progress};
 use crate::model::differences::Differences;
 use crate::model::{
     Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements,
-    assemble_any, classify,
-    volumes,
+    assemble_any, classify, volumes,
 };
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -104,7 +103,9 @@ impl Subject {
             (_, Assembled::Ribs(model)) if is_dust(model) => None,
             (Some(logarithmic), _) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             (None, Assembled::Ribs(model)) => differences(&problem, model),
-            (None, Assembled::Structure(model)) => Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>),
+            (None, Assembled::Structure(model)) => {
+                Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>)
+            }
         };
         Ok(Subject {
             class,
@@ -200,7 +201,15 @@ fn differences(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Subst
 /// A row whose value is a total volume.
 fn volume_row(total: Total) -> Constraint {
     let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
-    Constraint { name: String::new(), detail: Box::default(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
+    Constraint {
+        name: String::new(),
+        detail: Box::default(),
+        place: String::new(),
+        text: String::new(),
+        scope: Scope::Once,
+        left,
+        right,
+    }
 }
 
 /// A mistake of the reader as reports show it.

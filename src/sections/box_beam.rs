@@ -1,7 +1,7 @@
 //! `box`: outer width b and height h, wall thicknesses tw (webs, upright) and tf (flanges, level).
 
-use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::build::{monomial, radius, symmetric_modulus};
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;

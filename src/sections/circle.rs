@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::fibre::{AROUND, Fibre, Points, UPRIGHT, around};
 use super::build::{monomial, radius};
+use super::fibre::{AROUND, Fibre, Points, UPRIGHT, around};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Superellipse;

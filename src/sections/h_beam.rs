@@ -2,8 +2,8 @@
 //!
 //! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
 
-use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::build::{monomial, radius, symmetric_modulus};
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;

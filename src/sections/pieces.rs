@@ -2,8 +2,8 @@
 //!
 //! Moments are sums over pairs of rectangles, a_i·a_j·(c_i − c_j)²/A, free of the cancellation of the parallel-axis theorem.
 
-use super::fibre::{Fibre, extreme};
 use super::build::{monomial, radius};
+use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Unary};

@@ -1,7 +1,7 @@
 //! `polygon`: any simple polygon, with or without holes, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
 
-use super::fibre::{Fibre, extreme};
 use super::build::monomial;
+use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Polygon as Shape;

@@ -6,8 +6,8 @@
 //! The outline's vertices are linear in the thicknesses ([`Centreline::outline`]), so that every property is an exact expression in them. Which corners
 //! are mitred or cut depends on the points alone, never on the thicknesses.
 
-use super::fibre::{self, Fibre};
 use super::build::{extreme, monomial};
+use super::fibre::{self, Fibre};
 use super::outline::Outline;
 use super::{Form, Given, Kind, not_positive};
 use crate::expression::graph::{Graph, NodeId};

@@ -1,7 +1,7 @@
 //! `rectangle`: width b, height h.
 
-use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, extreme};
 use super::build::{monomial, radius};
+use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, extreme};
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;

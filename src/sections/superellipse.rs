@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::fibre::{Fibre, extreme};
 use super::build::monomial;
+use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;

@@ -1,7 +1,7 @@
 //! `tee`: a web tw × hw under a flange b × tf, overall height h = hw + tf.
 
-use super::fibre::{Fibre, Points, UPRIGHT, direction, extreme};
 use super::build::{monomial, radius, symmetric_modulus};
+use super::fibre::{Fibre, Points, UPRIGHT, direction, extreme};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;

@@ -70,7 +70,13 @@ impl Spread {
     /// n(ξ), zero at the end.
     pub fn axial(self, x: f64) -> f64 {
         match self {
-            Spread::Moment(at) | Spread::Force(at) => if x > at { 0.0 } else { 1.0 },
+            Spread::Moment(at) | Spread::Force(at) => {
+                if x > at {
+                    0.0
+                } else {
+                    1.0
+                }
+            }
             _ => self.integrals(1.0).0 - self.integrals(x).0,
         }
     }

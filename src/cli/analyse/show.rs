@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use ribopt::problem::structure::{DIRECTIONS, Structure};
 use ribopt::problem::Problem;
+use ribopt::problem::structure::{DIRECTIONS, Structure};
 use ribopt::report::number::short;
 use ribopt::report::text::TextTable;
 use ribopt::run::analyse::{Analysis, CaseResponses, Extreme};
@@ -93,7 +93,8 @@ fn by_node(title: &str, list: &[(u32, usize, f64)], structure: &Structure, out: 
             continue;
         }
         nodes += 1;
-        let value = |at: &usize| group.iter().find(|(_, direction, _)| direction == at).map_or(String::new(), |found| short(found.2));
+        let value =
+            |at: &usize| group.iter().find(|(_, direction, _)| direction == at).map_or(String::new(), |found| short(found.2));
         let name = structure.nodes.names[group[0].0 as usize].to_owned();
         table.add([name].into_iter().chain(directions.iter().map(value)).collect());
     }

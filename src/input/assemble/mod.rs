@@ -93,6 +93,7 @@ pub(super) fn assemble(
     assembly.items(&declared);
     assembly.tables(&declared, tables);
     assembly.finish_items();
+    assembly.structure_after_ribs(&declared, tables);
     if assembly.without.table {
         // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
         assembly.grammar(&declared);

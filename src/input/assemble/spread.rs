@@ -124,7 +124,12 @@ impl Assembly<'_> {
     }
 
     /// The points that are left open, each with the ribs whose sections have it.
-    fn open_points(&self, structure: &Structure, open: &Open, items: Option<&ItemScope>) -> Vec<(Option<String>, Option<Vec<u32>>)> {
+    fn open_points(
+        &self,
+        structure: &Structure,
+        open: &Open,
+        items: Option<&ItemScope>,
+    ) -> Vec<(Option<String>, Option<Vec<u32>>)> {
         if !open.stress && !open.shear {
             return vec![(None, None)];
         }

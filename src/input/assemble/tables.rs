@@ -23,7 +23,6 @@ impl Assembly<'_> {
             self.rib_table(written, tables);
         }
         self.late_ends(&declared.ribs);
-        self.structure_after_ribs(declared, tables);
     }
 
     fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
@@ -112,17 +111,22 @@ impl Assembly<'_> {
 
     fn rib_row(&mut self, row: &Row, columns: &RibColumns) {
         let name = Name { text: row.field(columns.name).to_owned(), place: row.place(columns.name) };
-        let length = match row.field(columns.length) {
-            "" => {
-                let message = format!("rib `{}` has no length", name.text);
-                self.findings.mistake(row.place(columns.length), message, "expected a positive number");
-                1.0
-            }
-            _ => self.cell_constant(row, columns.length).map_or(1.0, |value| self.length(value, row.place(columns.length))),
-        };
+        let member = columns.member.as_ref().filter(|member| member.given(row));
+        let given = columns.length.filter(|&at| !row.field(at).is_empty());
+        let given = given.and_then(|at| Some((self.cell_constant(row, at)?, row.place(at))));
+        let given = given.map(|(value, place)| (self.length(value, place), place));
+        if given.is_none() && member.is_none() && columns.length.is_none_or(|at| row.field(at).is_empty()) {
+            let place = row.place(columns.length.unwrap_or(columns.name));
+            self.findings.mistake(place, format!("rib `{}` has no length", name.text), "expected a positive number");
+        }
+        let length = given.map_or(1.0, |(length, _)| length);
         let law = columns.law.map_or(VolumeLaw::default(), |at| self.law_cell(row, at));
         let Some(r) = self.rib(&name, length, law) else { return };
         self.ends_of_row(row, columns, r, &name);
+        if let Some(member) = member {
+            let entry = self.member_cells(row, member);
+            self.member(r, &name, &entry, given);
+        }
         for &(at, column) in &columns.data {
             put(&mut self.rib_data, &mut self.findings, row, at, column, r as usize);
         }
@@ -167,7 +171,7 @@ fn infinite(row: &Row, at: usize, findings: &mut crate::input::findings::Finding
 }
 
 /// Puts a cell into a data column: a number, a text, or nothing.
-fn put(
+pub(super) fn put(
     data: &mut super::data::DataColumns,
     findings: &mut crate::input::findings::Findings,
     row: &Row,

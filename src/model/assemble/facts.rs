@@ -60,10 +60,7 @@ impl Facts {
     pub fn is_constant(&self, formula: &Formula) -> bool {
         match formula {
             Formula::OwnLength => !self.lengths_vary,
-            Formula::Constant(_)
-            | Formula::OwnData(_)
-            | Formula::OwnMaterial(_)
-            | Formula::EndData(..) => true,
+            Formula::Constant(_) | Formula::OwnData(_) | Formula::OwnMaterial(_) | Formula::EndData(..) => true,
             Formula::Definition(definition) => self.definition_constant[*definition as usize],
             Formula::SectionProperty(section, _) => {
                 self.section_constant.get(*section as usize).is_some_and(|constant| *constant)

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::member::{Framework, MemberNodes};
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
@@ -14,7 +15,6 @@ use crate::problem::evaluate::Evaluation;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::Law;
-use super::member::{Framework, MemberNodes};
 pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.

@@ -76,9 +76,7 @@ impl<'a> Framework<'a> {
 
     /// The inputs a plain member deforms by, in the order of its basic forces; `None` where one is released.
     pub fn inputs(self, member: u32, set: u32) -> [Option<u32>; BASIC] {
-        std::array::from_fn(|component| {
-            self.statics.deformation(set, member, component).map(|input| self.first_input + input)
-        })
+        std::array::from_fn(|component| self.statics.deformation(set, member, component).map(|input| self.first_input + input))
     }
 
     /// The input of a node's displacement.

@@ -22,7 +22,15 @@ pub(super) fn inner_problem(problem: &Problem, structure: &Structure, statics: &
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
             let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
             let (name, place, text) = ("force".into(), String::new(), String::new());
-            inner.constraints.push(Constraint { name, detail: Box::default(), place, text, scope: Scope::Ribs(ribs), left, right });
+            inner.constraints.push(Constraint {
+                name,
+                detail: Box::default(),
+                place,
+                text,
+                scope: Scope::Ribs(ribs),
+                left,
+                right,
+            });
         }
     }
     inner
@@ -39,7 +47,8 @@ fn forces(structure: &Structure, statics: &Statics, case: u32) -> Vec<(What, Vec
     let loaded = |prepared: &crate::problem::statics::Prepared| {
         prepared.loads.iter().any(|&load| {
             let load = &structure.loads[load as usize];
-            load.case == case && matches!(load.action, Action::Distributed { .. } | Action::Point { .. } | Action::SelfWeight { .. })
+            load.case == case
+                && matches!(load.action, Action::Distributed { .. } | Action::Point { .. } | Action::SelfWeight { .. })
         })
     };
     for component in 0..6 {
@@ -93,13 +102,7 @@ pub(super) fn outputs(
 }
 
 /// The state equations that the force of an inner row goes into, and its factor there.
-fn shares(
-    inner: &RibModel,
-    row: usize,
-    structure: &Structure,
-    statics: &Statics,
-    numbering: &Numbering,
-) -> Vec<(usize, f64)> {
+fn shares(inner: &RibModel, row: usize, structure: &Structure, statics: &Statics, numbering: &Numbering) -> Vec<(usize, f64)> {
     let origin = inner.row_origin(row);
     let constraint = &inner.problem().constraints[origin.constraint as usize];
     let (Formula::Response(response), Scope::Ribs(ribs)) = (&constraint.left, &constraint.scope) else { return Vec::new() };

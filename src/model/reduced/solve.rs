@@ -99,7 +99,8 @@ impl Stiffness {
             let mut rows = vec![0.0; lifted.meta().rows()];
             lifted.constraints(&z, &mut rows)?;
             let first = self.states.first_row;
-            let mut step: Vec<f64> = rows[first..].iter().zip(&lifted.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
+            let mut step: Vec<f64> =
+                rows[first..].iter().zip(&lifted.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
             self.solve(&mut step)?;
             z[x.len()..].iter_mut().zip(&step).for_each(|(state, step)| *state += step);
         }

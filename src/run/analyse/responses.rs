@@ -56,7 +56,9 @@ enum Row {
 /// # Errors
 /// As the model's evaluation; assembling fails where a term is too dense.
 pub fn responses(problem: &Problem, x: &[f64]) -> Result<Vec<CaseResponses>, ResponsesError> {
-    let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else { return Ok(Vec::new()) };
+    let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else {
+        return Ok(Vec::new());
+    };
     let mut rows = Vec::new();
     let mut constraints = Vec::new();
     for set in 0..structure.load_sets() as u32 {
@@ -159,12 +161,7 @@ fn points(problem: &Problem, structure: &Structure) -> Vec<(&'static str, Vec<u3
     list
 }
 
-fn collected(
-    structure: &Structure,
-    model: &Reduced<Lifted>,
-    rows: &[Row],
-    values: &[f64],
-) -> Vec<CaseResponses> {
+fn collected(structure: &Structure, model: &Reduced<Lifted>, rows: &[Row], values: &[f64]) -> Vec<CaseResponses> {
     let named = |set: u32| CaseResponses { name: structure.load_set_name(set).to_owned(), ..CaseResponses::default() };
     let mut cases: Vec<CaseResponses> = (0..structure.load_sets() as u32).map(named).collect();
     let mut known = Known::new();

@@ -131,7 +131,8 @@ impl<'b, 'a> Bending<'b, 'a> {
             if self.beam.deforms_in_shear {
                 let sign = if end == 0 { -1.0 } else { 1.0 };
                 // V_p = value/L·m', and the factor 1/L of b_V.
-                let force = |graph: &mut Graph, x: f64| Some(Weight::Node(sum_of(graph, terms, &|term| sign * term.spread.shear(x))));
+                let force =
+                    |graph: &mut Graph, x: f64| Some(Weight::Node(sum_of(graph, terms, &|term| sign * term.spread.shear(x))));
                 let shear_modulus = self.shear_modulus(graph);
                 let shear = self.integral(graph, points, self.shear_area, shear_modulus, &force);
                 let shear = graph.divide(shear, self.beam.length);

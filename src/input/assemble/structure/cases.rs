@@ -3,17 +3,19 @@
 use super::super::Assembly;
 use crate::input::declaration::Name;
 use crate::input::declaration::structure::StructureEntries;
+use crate::input::source::Place;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::Combination;
 
 impl Assembly<'_> {
     /// The number of a case, new where it is met for the first time.
-    pub(super) fn case(&mut self, name: &str) -> u32 {
+    pub(super) fn case(&mut self, name: &str, place: Place) -> u32 {
         if let Some(&known) = self.building.cases.get(name) {
             return known;
         }
         let number = self.building.structure.cases.len() as u32;
         self.building.structure.cases.push(name.into());
+        self.building.case_places.push(place);
         self.building.cases.insert(name.into(), number);
         number
     }

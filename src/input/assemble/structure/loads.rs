@@ -54,7 +54,7 @@ impl Effect {
 impl Assembly<'_> {
     pub(super) fn loads(&mut self, entries: &StructureEntries, tables: &mut Tables<'_>) {
         for entry in &entries.loads {
-            let case = entry.case.as_ref().map(|case| self.case(&case.text));
+            let case = entry.case.as_ref().map(|case| self.case(&case.text, case.place));
             let effect = self.effect(entry);
             let (Some(case), Some(effect)) = (case, effect) else { continue };
             let targets = match effect {
@@ -97,7 +97,7 @@ impl Assembly<'_> {
     }
 
     /// The members among ribs; a rib named by itself must be one.
-    fn members_of(&mut self, ribs: &[u32], names: &[Written]) -> Vec<u32> {
+    pub(super) fn members_of(&mut self, ribs: &[u32], names: &[Written]) -> Vec<u32> {
         let of_rib = |rib: u32| self.building.structure.member_of_rib.get(rib as usize).copied().flatten();
         let members: Vec<u32> = ribs.iter().filter_map(|&rib| of_rib(rib)).collect();
         if members.is_empty()
@@ -264,7 +264,7 @@ impl Assembly<'_> {
                 for (direction, value) in list {
                     if self.is_fixed(node, direction, place) {
                         let action = Action::Displacement { node, direction, value };
-                        self.building.structure.loads.push(Load { case, action });
+                        self.enter(Load { case, action }, place);
                     }
                 }
                 return;
@@ -278,7 +278,12 @@ impl Assembly<'_> {
             Effect::Gradient(difference) => Action::Gradient { member, difference },
             Effect::Pretension(force) => Action::Pretension { member, force },
         };
-        self.building.structure.loads.push(Load { case, action });
+        self.enter(Load { case, action }, place);
+    }
+
+    fn enter(&mut self, load: Load, place: Place) {
+        self.building.structure.loads.push(load);
+        self.building.load_places.push(place);
     }
 
     fn on_a_bar(&mut self, what: &str, member: u32, place: Place) {

@@ -12,7 +12,7 @@ mod nodes;
 mod numbers;
 mod settings;
 mod supports;
-mod tables;
+pub(super) mod tables;
 mod targets;
 
 use std::collections::HashMap;
@@ -23,6 +23,7 @@ use super::data::DataColumns;
 use crate::input::declaration::Declaration;
 use crate::input::source::Place;
 use crate::input::table::Tables;
+use crate::problem::precheck::{self, About};
 use crate::problem::structure::Structure;
 
 /// A structure while it is read.
@@ -41,9 +42,17 @@ pub(super) struct Building {
     /// Supports by node: the support, where it is given, and whether by a pattern.
     held: HashMap<u32, Held>,
     cases: HashMap<Box<str>, u32>,
+    /// Where cases are met for the first time.
+    case_places: Vec<Place>,
+    /// Where loads are given.
+    load_places: Vec<Place>,
     targets: targets::Targets,
+    /// Ribs by their datum `line`, once they are asked for.
+    lines: Option<std::collections::BTreeMap<Box<str>, Vec<u32>>>,
     /// Whether nodes are missing because a table could not be read.
     incomplete: bool,
+    /// Whether supports are missing for that reason.
+    unsupported: bool,
 }
 
 /// What a member says of itself.
@@ -77,6 +86,34 @@ impl Assembly<'_> {
         self.combinations(&declared.structure);
     }
 
+    /// Says what is wrong with the structure at first sight.
+    fn first_sight(&mut self, whole: Option<Place>) {
+        let sound = self.findings.clean() && !self.building.unsupported && !self.building.incomplete;
+        if !sound {
+            return; // half a structure has mistakes that the whole one has not
+        }
+        for finding in precheck::findings(&self.problem) {
+            let place = self.place_of(finding.about).or(whole).unwrap_or(Place::Whole);
+            match finding.fatal {
+                true => self.findings.mistake(place, finding.message, finding.help),
+                false => self.findings.warning(place, finding.message, finding.help),
+            }
+        }
+    }
+
+    fn place_of(&self, about: About) -> Option<Place> {
+        let rib_of = |member: u32| self.problem.structure.as_ref()?.members.get(member as usize).map(|member| member.rib);
+        match about {
+            About::Node(node) => self.building.node_places.get(node as usize).copied(),
+            About::Rib(rib) => self.rib_places.get(rib as usize).copied(),
+            About::Member(member) => self.rib_places.get(rib_of(member)? as usize).copied(),
+            About::Up(member) => self.building.said.get(&member).and_then(|said| said.up),
+            About::Material(material) => self.building.material_places.get(material as usize).copied(),
+            About::Load(load) => self.building.load_places.get(load as usize).copied(),
+            About::Whole => None,
+        }
+    }
+
     /// Closes the structure, when the variables' starts are known. Without any of its tables and without members there is none.
     pub(super) fn finish_structure(&mut self, declared: &Declaration) {
         let nodes = self.building.structure.nodes.names.len();
@@ -88,5 +125,6 @@ impl Assembly<'_> {
         self.building.structure.member_of_rib.resize(self.problem.ribs.names.len(), None);
         self.lengths();
         self.problem.structure = Some(Arc::new(std::mem::take(&mut self.building.structure)));
+        self.first_sight(declared.structure.place);
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::input::assemble::Assembly;
 use crate::input::assemble::data::DataColumns;
+use crate::input::assemble::structure::tables::MemberColumns;
 use crate::input::findings::Findings;
 use crate::input::table::Table;
 use crate::problem::nearest::did_you_mean;
@@ -34,7 +35,10 @@ pub(super) struct RibColumns {
     pub from: Option<usize>,
     pub to: Option<usize>,
     pub section: Option<usize>,
-    pub length: usize,
+    /// `None` where nodes give it.
+    pub length: Option<usize>,
+    /// What makes members of the ribs.
+    pub member: Option<MemberColumns>,
     pub law: Option<usize>,
     /// Field and data column.
     pub data: Vec<(usize, usize)>,
@@ -82,8 +86,13 @@ impl SectionColumns {
 impl RibColumns {
     /// Sorts out the headers; `None` where a needed column is missing.
     pub fn of(table: &Table, assembly: &mut Assembly) -> Option<RibColumns> {
-        let (name, length) = (required(table, "name", &mut assembly.findings), required(table, "length", &mut assembly.findings));
         let find = |name: &str| table.headers.iter().position(|header| header == name);
+        let member = MemberColumns::of(table);
+        let name = required(table, "name", &mut assembly.findings);
+        let length = match &member {
+            Some(_) => Some(find("length")),
+            None => required(table, "length", &mut assembly.findings).map(Some),
+        };
         let (from, to, section, law) = (find("from"), find("to"), find("section"), find("volume"));
         if section.is_none() && (from.is_none() || to.is_none()) {
             let place = table.place(1, crate::input::source::Place::WHOLE_ROW);
@@ -91,10 +100,11 @@ impl RibColumns {
             assembly.findings.mistake(place, message, "add them to the header");
             return None;
         }
-        let mut columns = RibColumns { name: name?, from, to, section, length: length?, law, data: Vec::new() };
-        let known = [Some(columns.name), Some(columns.length), from, to, section, law];
+        let mut columns = RibColumns { name: name?, from, to, section, length: length?, member, law, data: Vec::new() };
+        let known = [Some(columns.name), columns.length, from, to, section, law];
         for (at, header) in table.headers.iter().enumerate() {
-            if known.contains(&Some(at)) || header.is_empty() {
+            let of_member = columns.member.as_ref().is_some_and(|member| member.has(at));
+            if known.contains(&Some(at)) || header.is_empty() || of_member {
                 continue;
             }
             if header.contains('.') {

@@ -94,9 +94,8 @@ impl Lowering<'_> {
     /// Length and axes of a member as formulas of its nodes' coordinates.
     fn varying_frame(&mut self, framework: Framework, member: u32) -> Frame<NodeId> {
         let (declared, prepared) = framework.member(member);
-        let ends = [declared.start, declared.end].map(|node| {
-            framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate))
-        });
+        let ends = [declared.start, declared.end]
+            .map(|node| framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate)));
         let between: [NodeId; 3] = std::array::from_fn(|axis| {
             let chord = self.graph.subtract(ends[1][axis], ends[0][axis]);
             let arms = self.graph.constant(declared.offset[1][axis] - declared.offset[0][axis]);
@@ -302,4 +301,3 @@ pub(in crate::model) fn support_rows<A: Algebra>(
         along(algebra, 1, e3, offset[1]),
     ]
 }
-
