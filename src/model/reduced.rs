@@ -6,10 +6,11 @@
 
 mod solve;
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::lifted::{States, WithStates};
 use super::{EvaluationError, Meta, Model, Own, Pattern};
+use solve::Factors;
 pub use solve::{Mechanism, Stiffness};
 
 /// A model without its states.
@@ -17,16 +18,19 @@ pub struct Reduced<M> {
     lifted: M,
     meta: Meta,
     states: States,
-    stiffness: Mutex<Stiffness>,
-    latest: Mutex<Option<Latest>>,
+    stiffness: Stiffness,
+    latest: Mutex<Option<Arc<Analysed>>>,
 }
 
-/// A design with its states.
-#[derive(Clone)]
-struct Latest {
+/// A design with what follows from it; each part is computed once.
+struct Analysed {
     x: Vec<f64>,
     /// Design and states.
     z: Vec<f64>,
+    factors: Factors,
+    jacobian: OnceLock<Vec<f64>>,
+    /// U = −K⁻¹·R_x, one column per design variable.
+    sensitivities: OnceLock<Vec<Vec<f64>>>,
 }
 
 impl<M: WithStates> Reduced<M> {
@@ -48,7 +52,7 @@ impl<M: WithStates> Reduced<M> {
             hessian: dense_lower(n),
             ..Meta::default()
         };
-        let stiffness = Mutex::new(Stiffness::of(own, states));
+        let stiffness = Stiffness::of(own, states);
         Some(Reduced { lifted, meta, states, stiffness, latest: Mutex::new(None) })
     }
 
@@ -62,13 +66,23 @@ impl<M: WithStates> Reduced<M> {
     /// # Errors
     /// Where the model has no value, or the structure is a mechanism.
     pub fn solved(&self, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let mut latest = self.latest.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if let Some(known) = latest.as_ref().filter(|known| known.x == x) {
-            return Ok(known.z.clone());
-        }
-        let z = self.stiffness().solve_states(&self.lifted, x)?;
-        *latest = Some(Latest { x: x.to_vec(), z: z.clone() });
-        Ok(z)
+        Ok(self.at(x)?.z.clone())
+    }
+
+    fn at(&self, x: &[f64]) -> Result<Arc<Analysed>, EvaluationError> {
+        let earlier = {
+            let mut latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
+            match latest.as_ref() {
+                Some(known) if known.x == x => return Ok(Arc::clone(known)),
+                // Nobody else looks at it any more: its analysis of the pattern serves again.
+                _ => latest.take().and_then(Arc::into_inner).map(|earlier| earlier.factors),
+            }
+        };
+        let (z, factors) = self.stiffness.solve_states(&self.lifted, x, earlier)?;
+        let (jacobian, sensitivities) = (OnceLock::new(), OnceLock::new());
+        let analysed = Arc::new(Analysed { x: x.to_vec(), z, factors, jacobian, sensitivities });
+        *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&analysed));
+        Ok(analysed)
     }
 
     /// The mechanism a design is, where it is one.
@@ -76,7 +90,7 @@ impl<M: WithStates> Reduced<M> {
     /// # Errors
     /// Where the model has no value.
     pub fn mechanism(&self, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
-        self.stiffness().mechanism(&self.lifted, x)
+        self.stiffness.mechanism(&self.lifted, x)
     }
 
     /// The largest residual of a state equation at a design, over the largest sum of the sizes of one's terms.
@@ -99,34 +113,40 @@ impl<M: WithStates> Reduced<M> {
         Ok(if largest > 0.0 { worst / largest } else { 0.0 })
     }
 
-    fn stiffness(&self) -> std::sync::MutexGuard<'_, Stiffness> {
-        self.stiffness.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    /// The lifted Jacobian at an analysed design.
+    fn lifted_jacobian<'p>(&self, point: &'p Analysed) -> Result<&'p [f64], EvaluationError> {
+        if let Some(known) = point.jacobian.get() {
+            return Ok(known);
+        }
+        let mut jacobian = vec![0.0; self.lifted.meta().jacobian.len()];
+        self.lifted.jacobian(&point.z, &mut jacobian)?;
+        Ok(point.jacobian.get_or_init(|| jacobian))
     }
 
     /// The multipliers of the state equations that make the Lagrangian stationary in the states.
-    fn adjoint(&self, z: &[f64], weight: f64, y: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+    fn adjoint(&self, point: &Analysed, weight: f64, y: &[f64]) -> Result<Vec<f64>, EvaluationError> {
         let meta = self.lifted.meta();
         let mut slope = vec![0.0; meta.variables()];
         if weight != 0.0 {
-            self.lifted.gradient(z, &mut slope)?;
+            self.lifted.gradient(&point.z, &mut slope)?;
             slope.iter_mut().for_each(|slope| *slope *= weight);
         }
-        let mut jacobian = vec![0.0; meta.jacobian.len()];
-        self.lifted.jacobian(z, &mut jacobian)?;
         let mut all = y.to_vec();
         all.resize(meta.rows(), 0.0);
-        meta.jacobian.add_transposed(&jacobian, &all, &mut slope);
+        meta.jacobian.add_transposed(self.lifted_jacobian(point)?, &all, &mut slope);
         let mut multipliers = slope.split_off(self.states.first_variable);
-        let stiffness = self.stiffness();
-        stiffness.solve(&mut multipliers)?;
+        point.factors.solve(&mut multipliers)?;
         multipliers.iter_mut().for_each(|value| *value = -*value);
         Ok(multipliers)
     }
 
     /// U = −K⁻¹·R_x, one column per design variable.
-    fn sensitivities(&self, jacobian: &[f64]) -> Result<Vec<Vec<f64>>, EvaluationError> {
+    fn sensitivities<'p>(&self, point: &'p Analysed) -> Result<&'p [Vec<f64>], EvaluationError> {
+        if let Some(known) = point.sensitivities.get() {
+            return Ok(known);
+        }
         let (n, m, number) = (self.states.first_variable, self.states.first_row, self.states.block * self.states.blocks);
-        let pattern = &self.lifted.meta().jacobian;
+        let (pattern, jacobian) = (&self.lifted.meta().jacobian, self.lifted_jacobian(point)?);
         let mut columns = vec![vec![0.0; number]; n];
         for equation in 0..number {
             for at in pattern.range(m + equation) {
@@ -135,23 +155,17 @@ impl<M: WithStates> Reduced<M> {
                 }
             }
         }
-        let stiffness = self.stiffness();
-        columns.iter_mut().try_for_each(|column| stiffness.solve(column))?;
-        Ok(columns)
+        columns.iter_mut().try_for_each(|column| point.factors.solve(column))?;
+        Ok(point.sensitivities.get_or_init(|| columns))
     }
 
     /// Row by row: adjoints where rows with states are fewer than variables, sensitivities otherwise.
-    fn reduced_jacobian(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+    fn reduced_jacobian(&self, point: &Analysed, values: &mut [f64]) -> Result<(), EvaluationError> {
         let (n, m) = (self.states.first_variable, self.states.first_row);
-        let pattern = &self.lifted.meta().jacobian;
-        let mut jacobian = vec![0.0; pattern.len()];
-        self.lifted.jacobian(z, &mut jacobian)?;
+        let (pattern, jacobian) = (&self.lifted.meta().jacobian, self.lifted_jacobian(point)?);
         let stateful: Vec<bool> = (0..m).map(|row| !knows_no_state(self.lifted.meta(), row, n)).collect();
-        let columns = match stateful.iter().filter(|&&stateful| stateful).count() {
-            0 => Vec::new(),
-            rows if rows >= n => self.sensitivities(&jacobian)?,
-            _ => Vec::new(),
-        };
+        let rows = stateful.iter().filter(|&&stateful| stateful).count();
+        let columns = if rows >= n { self.sensitivities(point)? } else { &[] };
         let mut dense = vec![0.0; n];
         for row in 0..m {
             dense.fill(0.0);
@@ -161,7 +175,7 @@ impl<M: WithStates> Reduced<M> {
                 }
             }
             if stateful[row] {
-                self.add_through_states(row, &jacobian, &columns, &mut dense)?;
+                self.add_through_states(point, (row, jacobian), columns, &mut dense)?;
             }
             for at in self.meta.jacobian.range(row) {
                 values[at] = dense[self.meta.jacobian.columns[at] as usize];
@@ -172,8 +186,8 @@ impl<M: WithStates> Reduced<M> {
 
     fn add_through_states(
         &self,
-        row: usize,
-        jacobian: &[f64],
+        point: &Analysed,
+        (row, jacobian): (usize, &[f64]),
         columns: &[Vec<f64>],
         dense: &mut [f64],
     ) -> Result<(), EvaluationError> {
@@ -189,7 +203,7 @@ impl<M: WithStates> Reduced<M> {
         }
         let mut adjoint = vec![0.0; self.states.block * self.states.blocks];
         by_state.for_each(|(state, slope)| adjoint[state] = -slope);
-        self.stiffness().solve(&mut adjoint)?;
+        point.factors.solve(&mut adjoint)?;
         for (equation, multiplier) in adjoint.iter().enumerate().filter(|(_, multiplier)| **multiplier != 0.0) {
             for at in pattern.range(m + equation) {
                 if let Some(value) = dense.get_mut(pattern.columns[at] as usize) {
@@ -235,19 +249,17 @@ impl<M: WithStates> Model for Reduced<M> {
     }
 
     fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.lifted.objective(&self.solved(x)?)
+        self.lifted.objective(&self.at(x)?.z)
     }
 
     fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let z = self.solved(x)?;
-        let mut whole = vec![0.0; z.len()];
-        let value = self.lifted.gradient(&z, &mut whole)?;
+        let point = self.at(x)?;
+        let mut whole = vec![0.0; point.z.len()];
+        let value = self.lifted.gradient(&point.z, &mut whole)?;
         gradient.copy_from_slice(&whole[..x.len()]);
         if whole[x.len()..].iter().any(|&slope| slope != 0.0) {
-            let multipliers = self.adjoint(&z, 1.0, &[])?;
-            let pattern = &self.lifted.meta().jacobian;
-            let mut jacobian = vec![0.0; pattern.len()];
-            self.lifted.jacobian(&z, &mut jacobian)?;
+            let multipliers = self.adjoint(&point, 1.0, &[])?;
+            let (pattern, jacobian) = (&self.lifted.meta().jacobian, self.lifted_jacobian(&point)?);
             for (equation, multiplier) in multipliers.iter().enumerate() {
                 for at in pattern.range(self.states.first_row + equation) {
                     if let Some(slope) = gradient.get_mut(pattern.columns[at] as usize) {
@@ -261,25 +273,22 @@ impl<M: WithStates> Model for Reduced<M> {
 
     fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         let mut all = vec![0.0; self.lifted.meta().rows()];
-        self.lifted.constraints(&self.solved(x)?, &mut all)?;
+        self.lifted.constraints(&self.at(x)?.z, &mut all)?;
         values.copy_from_slice(&all[..values.len()]);
         Ok(())
     }
 
     fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.reduced_jacobian(&self.solved(x)?, values)
+        self.reduced_jacobian(&*self.at(x)?, values)
     }
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let z = self.solved(x)?;
-        let meta = self.lifted.meta();
-        let multipliers = self.adjoint(&z, weight, y)?;
+        let (point, meta) = (self.at(x)?, self.lifted.meta());
+        let multipliers = self.adjoint(&point, weight, y)?;
         let all: Vec<f64> = y.iter().chain(&multipliers).copied().collect();
-        let (mut hessian, mut jacobian) = (vec![0.0; meta.hessian.len()], vec![0.0; meta.jacobian.len()]);
-        self.lifted.hessian(&z, weight, &all, &mut hessian)?;
-        self.lifted.jacobian(&z, &mut jacobian)?;
-        let columns = self.sensitivities(&jacobian)?;
-        solve::congruence(&meta.hessian, &hessian, &columns, values);
+        let mut hessian = vec![0.0; meta.hessian.len()];
+        self.lifted.hessian(&point.z, weight, &all, &mut hessian)?;
+        solve::congruence(&meta.hessian, &hessian, self.sensitivities(&point)?, values);
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! The matrix ∂R/∂u of one block: factorised, solved with, and looked at for mechanisms.
 
-use crate::linear_algebra::{FactorizationError, Pattern, SymmetricSolver};
+use crate::linear_algebra::{Pattern, SymmetricSolver};
 use crate::math::split_mix::SplitMix;
 use crate::model::lifted::States;
 use crate::model::{EvaluationError, Meta, Model};
@@ -12,12 +12,16 @@ const SINGULAR: f64 = 1e-14;
 /// What is added to the scaled diagonal so that a singular matrix can be factorised for inverse iteration.
 const SHIFT: f64 = 1e-11;
 
-/// The block of the states: lower triangle by rows, and where each value stands in the lifted Jacobian.
+/// Where the block of the states stands: lower triangle by rows, and each value's place in the lifted Jacobian.
 pub struct Stiffness {
     states: States,
     pattern: Pattern,
     places: Vec<usize>,
-    solver: Option<SymmetricSolver>,
+}
+
+/// The block's factors at one design.
+pub struct Factors {
+    solver: SymmetricSolver,
     /// D = diag(K)^(−1/2).
     scales: Vec<f64>,
 }
@@ -48,9 +52,7 @@ impl Stiffness {
                 }
             }
         }
-        let pattern = Pattern::from_positions(states.block, &mut positions);
-        let solver = SymmetricSolver::new(&pattern.offsets, &pattern.columns).ok();
-        Stiffness { states, pattern, places, solver, scales: vec![1.0; states.block] }
+        Stiffness { states, pattern: Pattern::from_positions(states.block, &mut positions), places }
     }
 
     fn values<M: Model>(&self, lifted: &M, z: &[f64]) -> Result<Vec<f64>, EvaluationError> {
@@ -59,86 +61,77 @@ impl Stiffness {
         Ok(self.places.iter().map(|&at| jacobian[at]).collect())
     }
 
-    /// The values scaled to a unit diagonal; directions without stiffness keep their zeros.
-    fn scaled(&mut self, mut values: Vec<f64>) -> Vec<f64> {
-        self.scales = (0..self.states.block)
+    /// The values scaled to a unit diagonal, and the scales; directions without stiffness keep their zeros.
+    fn scaled(&self, mut values: Vec<f64>) -> (Vec<f64>, Vec<f64>) {
+        let scales: Vec<f64> = (0..self.states.block)
             .map(|row| match self.pattern.position(row, row as u32).map(|at| values[at]) {
                 Some(diagonal) if diagonal > 0.0 => 1.0 / diagonal.sqrt(),
                 _ => 1.0,
             })
             .collect();
         for (at, (row, column)) in self.pattern.iter().enumerate() {
-            values[at] *= self.scales[row] * self.scales[column];
+            values[at] *= scales[row] * scales[column];
         }
-        values
+        (values, scales)
     }
 
-    fn factor(&mut self, values: &[f64]) -> Result<bool, FactorizationError> {
-        let order = self.states.block;
-        match &mut self.solver {
-            Some(solver) => solver.factor(values).map(|inertia| inertia.positive == order),
-            None => Err(FactorizationError::Singular),
+    /// A solver for the block; `earlier`, of another design, keeps its analysis of the pattern.
+    fn solver(&self, earlier: Option<Factors>) -> Result<SymmetricSolver, EvaluationError> {
+        match earlier {
+            Some(factors) => Ok(factors.solver),
+            None => SymmetricSolver::for_quasi_definite(&self.pattern.offsets, &self.pattern.columns).map_err(failed),
         }
     }
 
-    /// Design and states.
-    pub fn solve_states<M: Model>(&mut self, lifted: &M, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let number = self.states.block * self.states.blocks;
+    /// Design and states, and the factors they were found with.
+    pub fn solve_states<M: Model>(
+        &self,
+        lifted: &M,
+        x: &[f64],
+        earlier: Option<Factors>,
+    ) -> Result<(Vec<f64>, Factors), EvaluationError> {
         let mut z = x.to_vec();
-        z.resize(x.len() + number, 0.0);
-        if number == 0 {
-            return Ok(z);
-        }
-        let values = self.values(lifted, &z)?;
-        let scaled = self.scaled(values);
-        if !self.factor(&scaled).map_err(failed)? {
+        z.resize(x.len() + self.states.block * self.states.blocks, 0.0);
+        let (scaled, scales) = self.scaled(self.values(lifted, &z)?);
+        let mut solver = self.solver(earlier)?;
+        let inertia = solver.factor(&scaled).map_err(failed)?;
+        if inertia.positive != self.states.block {
             return Err(failed("the structure is a mechanism: a motion meets no resistance"));
         }
-        // R is linear in u: one step is exact, a second takes away what rounding left.
-        for _ in 0..2 {
+        let factors = Factors { solver, scales };
+        // R is linear in u: one step is exact but for rounding, which two more take away.
+        for _ in 0..3 {
             let mut rows = vec![0.0; lifted.meta().rows()];
             lifted.constraints(&z, &mut rows)?;
             let first = self.states.first_row;
             let mut step: Vec<f64> =
                 rows[first..].iter().zip(&lifted.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
-            self.solve(&mut step)?;
+            factors.solve(&mut step)?;
             z[x.len()..].iter_mut().zip(&step).for_each(|(state, step)| *state += step);
         }
-        if z.iter().all(|value| value.is_finite()) { Ok(z) } else { Err(failed("displacements overflow")) }
-    }
-
-    /// K⁻¹·right, block by block, in place.
-    pub fn solve(&self, right: &mut [f64]) -> Result<(), EvaluationError> {
-        let Some(solver) = &self.solver else { return Err(failed(FactorizationError::Singular)) };
-        let mut solution = vec![0.0; self.states.block];
-        for block in right.chunks_mut(self.states.block.max(1)) {
-            block.iter_mut().zip(&self.scales).for_each(|(value, scale)| *value *= scale);
-            solver.solve(block, &mut solution).map_err(failed)?;
-            block.iter_mut().zip(&solution).zip(&self.scales).for_each(|((value, solution), scale)| *value = solution * scale);
-        }
-        Ok(())
+        if z.iter().all(|value| value.is_finite()) { Ok((z, factors)) } else { Err(failed("displacements overflow")) }
     }
 
     /// The smallest eigenvalue's motion by inverse iteration, where it is none but for rounding.
-    pub fn mechanism<M: Model>(&mut self, lifted: &M, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
+    pub fn mechanism<M: Model>(&self, lifted: &M, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
         let order = self.states.block;
         let mut z = x.to_vec();
         z.resize(x.len() + order * self.states.blocks, 0.0);
-        if order == 0 {
+        if order == 0 || self.states.blocks == 0 {
             return Ok(None);
         }
-        let values = self.values(lifted, &z)?;
-        let scaled = self.scaled(values);
+        let (scaled, scales) = self.scaled(self.values(lifted, &z)?);
         let mut shifted = scaled.clone();
         for (at, (row, column)) in self.pattern.iter().enumerate() {
             shifted[at] += if row == column { SHIFT } else { 0.0 };
         }
-        self.factor(&shifted).map_err(failed)?;
+        let mut solver = self.solver(None)?;
+        solver.factor(&shifted).map_err(failed)?;
         let mut random = SplitMix::new(1);
         let mut motion: Vec<f64> = (0..order).map(|_| random.uniform() - 0.5).collect();
         let mut next = vec![0.0; order];
         for _ in 0..6 {
-            self.solver.as_ref().map_or(Ok(()), |solver| solver.solve_once(&motion, &mut next)).map_err(failed)?;
+            solver.solve_once(&motion, &mut next).map_err(failed)?;
             let size = next.iter().map(|value| value * value).sum::<f64>().sqrt();
             motion.iter_mut().zip(&next).for_each(|(value, next)| *value = next / size);
         }
@@ -146,10 +139,23 @@ impl Stiffness {
         if energy > SINGULAR || energy.is_nan() {
             return Ok(None);
         }
-        motion.iter_mut().zip(&self.scales).for_each(|(value, scale)| *value *= scale);
+        motion.iter_mut().zip(&scales).for_each(|(value, scale)| *value *= scale);
         let largest = motion.iter().fold(0.0, |most: f64, value| if value.abs() > most.abs() { *value } else { most });
         motion.iter_mut().for_each(|value| *value /= largest);
         Ok(Some(Mechanism { motion }))
+    }
+}
+
+impl Factors {
+    /// K⁻¹·right, block by block, in place.
+    pub fn solve(&self, right: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut solution = vec![0.0; self.scales.len()];
+        for block in right.chunks_mut(self.scales.len().max(1)) {
+            block.iter_mut().zip(&self.scales).for_each(|(value, scale)| *value *= scale);
+            self.solver.solve_once(block, &mut solution).map_err(failed)?;
+            block.iter_mut().zip(&solution).zip(&self.scales).for_each(|((value, solution), scale)| *value = solution * scale);
+        }
+        Ok(())
     }
 }
 
