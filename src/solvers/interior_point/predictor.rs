@@ -11,6 +11,7 @@ use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
 use super::vectors::{dot, moved};
 use crate::model::EvaluationError;
+use crate::solvers::barrier::longest_multiplier_step;
 
 /// Iterations without a better optimality error after which the filter takes over.
 const PATIENCE: u64 = 8;
@@ -121,11 +122,7 @@ impl Engine<'_> {
 
     fn lengths(&self, step: &Step, tau: f64) -> Lengths {
         let Iterate { w, z_lower, z_upper, .. } = &self.iterate;
-        let dual = barrier::longest_multiplier_step(z_lower, &step.z_lower, tau).min(barrier::longest_multiplier_step(
-            z_upper,
-            &step.z_upper,
-            tau,
-        ));
+        let dual = longest_multiplier_step(z_lower, &step.z_lower, tau).min(longest_multiplier_step(z_upper, &step.z_upper, tau));
         Lengths { primal: barrier::longest_step(&self.form, w, &step.w, tau), dual }
     }
 

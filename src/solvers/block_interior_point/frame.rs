@@ -6,9 +6,9 @@
 
 use super::arena::{Header, Piece};
 use super::barrier::PUSH;
-use crate::backends::argmin::interior_point::pushed;
 use crate::model::Meta;
 use crate::model::components::{Components, Local, Partition};
+use crate::solvers::barrier::pushed;
 
 /// Scaled multipliers smaller than this hold nothing.
 const IDLE: f64 = 1e-10;

@@ -1,23 +1,19 @@
-//! The augmented Lagrangian as an argmin solver: minimise φ within the bounds, move the multipliers, raise the penalty where
+//! The augmented Lagrangian: minimise φ within the bounds, move the multipliers, raise the penalty where
 //! the violation does not fall (Birgin & Martínez, *Practical Augmented Lagrangian Methods*, algorithm 4.1).
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`subproblem`] | φ minimised by argmin's trust region on faces of the box |
+//! | [`faces`] | φ minimised on one face of the box after another |
 //! | [`face`] | φ over the variables that are not at rest on a bound |
-//! | [`steihaug`] | the trust region's step, by conjugate gradients |
+//! | [`trust_region`], [`steihaug`] | the minimisation on one face, and its steps by conjugate gradients |
 
 mod face;
+mod faces;
 mod steihaug;
-mod subproblem;
-#[cfg(test)]
-mod tests;
+mod trust_region;
 
-use argmin::core::{Error, KV, Problem, Solver};
-
-use self::subproblem::minimise;
-use super::state::{Conclusion, NlpState, Point};
-use crate::backends::{Job, StopTest, Termination};
+use self::faces::minimise;
+use super::{Conclusion, Point, Progress, Solver, Why};
 use crate::model::augmented::{Augmented, MOST_PRODUCTS, needed_products};
 use crate::model::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
@@ -48,14 +44,17 @@ const RENEWALS: u32 = 10;
 const SOLVED: f64 = 1e-6;
 
 /// Why the rows cannot be taken; `None` where they can.
-pub(super) fn refusal(meta: &Meta) -> Option<String> {
+pub fn refusal(meta: &Meta) -> Option<String> {
     let products = needed_products(meta);
     (products > MOST_PRODUCTS)
         .then(|| format!("augmented-lagrangian multiplies rows out, which takes {products} entries here; use interior-point"))
 }
 
+/// Says whether a point passes as an answer: iterations may end there.
+pub type StopTest<'a> = &'a (dyn Fn(&[f64]) -> bool + Sync);
+
 /// The solver. x, multipliers and residuals are those of the scaled model.
-pub(super) struct AugmentedLagrangian<'a> {
+pub struct AugmentedLagrangian<'a> {
     evaluator: &'a Evaluator<'a>,
     subproblem: Augmented<Scaled<'a>>,
     stop_test: Option<StopTest<'a>>,
@@ -90,18 +89,24 @@ fn units<'x>(start: &'x [f64]) -> impl Fn(&[f64]) -> Vec<f64> + 'x {
 }
 
 impl<'a> AugmentedLagrangian<'a> {
-    /// From the job's start, moved to where the model has values. The rows must be such that [`refusal`] is silent.
+    /// From `start` (with the row multipliers of an earlier answer, if there are any), moved to where the model has values. The
+    /// rows must be such that [`refusal`] is silent.
     ///
     /// # Errors
     /// The model has no value near the start.
-    pub fn new<'j: 'a>(evaluator: &'a Evaluator<'a>, job: &Job<'j>) -> Result<Self, EvaluationError> {
-        let (x, scales) = valid_start(evaluator, job.start, units(job.start))?;
+    pub fn new(
+        evaluator: &'a Evaluator<'a>,
+        start: &[f64],
+        multipliers: Option<&[f64]>,
+        stop_test: Option<StopTest<'a>>,
+    ) -> Result<Self, EvaluationError> {
+        let (x, scales) = valid_start(evaluator, start, units(start))?;
         let subproblem = subproblem(evaluator, scales)?;
         let scaled = subproblem.model();
         let rows = scaled.meta().rows();
-        let known = job.start_multipliers.filter(|known| known.len() == rows);
+        let known = multipliers.filter(|known| known.len() == rows);
         Ok(AugmentedLagrangian {
-            stop_test: job.stop_test,
+            stop_test,
             start: x.clone(),
             x: scaled.scaled_point(&x),
             multipliers: known.map_or(vec![0.0; rows], |known| scaled.scaled_multipliers(known)),
@@ -258,7 +263,7 @@ impl<'a> AugmentedLagrangian<'a> {
 }
 
 fn concluded(message: String) -> Conclusion {
-    Conclusion { termination: Termination::Converged, message, invalid: None }
+    Conclusion::new(Why::Converged, message)
 }
 
 fn subproblem<'a>(evaluator: &'a Evaluator<'a>, scales: Scales) -> Result<Augmented<Scaled<'a>>, EvaluationError> {
@@ -272,37 +277,26 @@ fn is_stale(old: &Scales, new: &Scales) -> bool {
     rows || off(old.objective, new.objective) || old.variables.iter().zip(&new.variables).any(|(&old, &new)| off(old, new))
 }
 
-impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for AugmentedLagrangian<'a> {
-    fn name(&self) -> &str {
+impl Solver for AugmentedLagrangian<'_> {
+    fn name(&self) -> &'static str {
         "augmented Lagrangian"
     }
 
-    fn init(
-        &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let evaluations = problem.problem.map_or(0, |evaluator| evaluator.evaluations());
-        Ok(match self.point(f64::NAN) {
-            Ok(point) => (state.at(point, 0.0, evaluations), None),
-            Err(error) => (state.conclude(Conclusion::of(&error), None), None),
-        })
+    fn begin(&mut self) -> Progress {
+        match self.point(f64::NAN) {
+            Ok(point) => Progress::at(point, 0.0),
+            Err(error) => Progress::failed(&error),
+        }
     }
 
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let (point, step_norm) = match self.iterate() {
-            Ok(found) => found,
-            Err(error) => return Ok((state.conclude(Conclusion::of(&error), None), None)),
+    fn step(&mut self, _is_last: bool) -> Progress {
+        let progress = match self.iterate() {
+            Ok((point, step_norm)) => Progress::at(point, step_norm),
+            Err(error) => return Progress::failed(&error),
         };
-        let evaluations = problem.problem.map_or(0, |evaluator| evaluator.evaluations());
-        let state = state.at(point, step_norm, evaluations);
-        Ok(match self.conclusion() {
-            Some(conclusion) => (state.conclude(conclusion, self.best.as_ref().map(|best| best.point.clone())), None),
-            None => (state, None),
-        })
+        match self.conclusion() {
+            Some(conclusion) => progress.concluded(conclusion, self.best.as_ref().map(|best| best.point.clone())),
+            None => progress,
+        }
     }
 }

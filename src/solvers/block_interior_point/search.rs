@@ -4,6 +4,7 @@ use super::arena::Piece;
 use super::barrier::{self, distances, force};
 use super::frame::Frame;
 use super::newton::Newton;
+use crate::solvers::barrier::longest_multiplier_step;
 
 const LEAST_TAU: f64 = 0.99;
 const ARMIJO: f64 = 1e-4;
@@ -110,10 +111,11 @@ impl Search {
     /// Moves to the trial point, multipliers by their own longest steps.
     fn accept(&mut self, frame: &Frame<'_>, newton: &Newton, piece: &mut Piece<'_>, length: f64, tau: f64) {
         let (mu, n) = (piece.header.mu, frame.n);
-        let longest = |z: &[f64], steps: &[f64]| {
-            z.iter().zip(steps).filter(|(_, step)| **step < 0.0).fold(1.0, |most: f64, (z, step)| most.min(-tau * z / step))
-        };
-        let dual = longest(piece.z_lower, &newton.z_lower).min(longest(piece.z_upper, &newton.z_upper));
+        let dual = longest_multiplier_step(piece.z_lower, &newton.z_lower, tau).min(longest_multiplier_step(
+            piece.z_upper,
+            &newton.z_upper,
+            tau,
+        ));
         piece.header.step = piece.w[..n].iter().zip(&self.trial).map(|(w, trial)| (trial - w).powi(2)).sum();
         piece.w.copy_from_slice(&self.trial);
         for (y, new) in piece.y.iter_mut().zip(&newton.y) {

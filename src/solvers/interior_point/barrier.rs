@@ -90,11 +90,6 @@ pub(super) fn longest_step(form: &Form<'_>, w: &[f64], step: &[f64], tau: f64) -
     longest
 }
 
-/// The longest step in (0, 1] that keeps the share 1 − τ of every multiplier.
-pub(super) fn longest_multiplier_step(z: &[f64], step: &[f64], tau: f64) -> f64 {
-    z.iter().zip(step).filter(|(_, step)| **step < 0.0).fold(1.0, |longest: f64, (z, step)| longest.min(-tau * z / step))
-}
-
 /// Keeps bound multipliers within κ_Σ of μ/slack, so that Σ stays an approximation of the barrier's Hessian.
 pub(super) fn reset_multipliers(form: &Form<'_>, w: &[f64], mu: f64, lower: &mut [f64], upper: &mut [f64]) {
     for j in 0..w.len() {

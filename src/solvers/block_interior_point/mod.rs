@@ -1,5 +1,5 @@
-//! A model that falls apart, solved component by component side by side, as one argmin solver: in one argmin iteration every
-//! component that is not done takes up to five Newton steps.
+//! A model of many independent components, solved component by component side by side: in one iteration every component that is
+//! not done takes up to five Newton steps.
 //!
 //! | file | subject |
 //! |---|---|
@@ -19,13 +19,10 @@ mod newton;
 mod search;
 mod step;
 
-use argmin::core::{Error, KV, Problem, Solver, State};
 use rayon::prelude::*;
 
-use super::interior_point;
-use super::state::{Conclusion, NlpState, Point, given};
-use crate::backends::Termination;
-use crate::model::components::Components as Pieces;
+use super::{Conclusion, Point, Progress, Solver, Why, interior_point};
+use crate::model::components::Components;
 use crate::model::{Budget, EvaluationError, Evaluator, Model};
 use arena::{Arena, Header, Phase, Piece};
 use frame::Frame;
@@ -40,28 +37,30 @@ const BATCH: usize = 128;
 /// Steps every component takes in one iteration: turning from one to the next costs about as much as a step.
 const STEPS: u32 = 5;
 
-/// Whether this model is worth taking apart.
-pub(super) fn fall_apart(model: &dyn Model) -> Option<Box<dyn Pieces + '_>> {
+/// The components of a model that is worth taking apart.
+pub fn decomposes(model: &dyn Model) -> Option<Box<dyn Components + '_>> {
     if model.meta().variables() < FEWEST_VARIABLES { None } else { model.components() }
 }
 
 /// All components side by side.
-pub(super) struct Components<'a> {
-    pieces: &'a dyn Pieces,
+pub struct BlockInteriorPoint<'a> {
+    model: &'a Evaluator<'a>,
+    pieces: &'a dyn Components,
     start: &'a [f64],
     multipliers: Option<&'a [f64]>,
     arena: Arena,
 }
 
-impl<'a> Components<'a> {
+impl<'a> BlockInteriorPoint<'a> {
     /// From `start`, an earlier answer where there are multipliers.
-    pub fn new(pieces: &'a dyn Pieces, model: &'a dyn Model, start: &'a [f64], multipliers: Option<&'a [f64]>) -> Self {
+    pub fn new(model: &'a Evaluator<'a>, pieces: &'a dyn Components, start: &'a [f64], multipliers: Option<&'a [f64]>) -> Self {
         let arena = Arena::new(pieces.partition(), model.meta(), LARGEST);
-        Components { pieces, start, multipliers, arena }
+        BlockInteriorPoint { model, pieces, start, multipliers, arena }
     }
 
     /// Some steps of every component under way; hard ones are solved to their end. A budget that runs out leaves the rest.
-    fn advance(&mut self, model: &'a Evaluator<'a>) {
+    fn advance(&mut self) {
+        let model = self.model;
         let (meta, pieces, start, multipliers) = (model.meta(), self.pieces, self.start, self.multipliers);
         let stepper = || Stepper::new(Frame::new(pieces, meta, start), multipliers);
         let mut running = self.arena.pieces(pieces.partition(), |phase| matches!(phase, Phase::New | Phase::Running));
@@ -79,9 +78,9 @@ impl<'a> Components<'a> {
     }
 
     /// x of all components.
-    fn x(&mut self, model: &'a Evaluator<'a>) -> Vec<f64> {
+    fn x(&mut self) -> Vec<f64> {
         let mut x = self.start.to_vec();
-        let mut frame = Frame::new(self.pieces, model.meta(), self.start);
+        let mut frame = Frame::new(self.pieces, self.model.meta(), self.start);
         for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
             frame.scales_of(&piece);
             frame.unscaled(&piece).for_each(|(j, value)| x[j as usize] = value);
@@ -103,14 +102,14 @@ impl<'a> Components<'a> {
         }
     }
 
-    fn answer(&mut self, model: &'a Evaluator<'a>) -> Point {
-        let mut multipliers = vec![0.0; model.meta().rows()];
-        let mut frame = Frame::new(self.pieces, model.meta(), self.start);
+    fn answer(&mut self) -> Point {
+        let mut multipliers = vec![0.0; self.model.meta().rows()];
+        let mut frame = Frame::new(self.pieces, self.model.meta(), self.start);
         for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
             frame.scales_of(&piece);
             frame.multipliers(&piece).for_each(|(i, y)| multipliers[i as usize] = y);
         }
-        Point { x: self.x(model), multipliers: Some(multipliers), ..self.progress() }
+        Point { x: self.x(), multipliers: Some(multipliers), ..self.progress() }
     }
 
     fn step_norm(&self) -> f64 {
@@ -129,22 +128,28 @@ impl<'a> Components<'a> {
         if !self.is_done() {
             let message =
                 format!("the limit on iterations is reached: {failed} of {count} independent components are not solved");
-            return Conclusion { termination: Termination::LimitReached, message, invalid: None };
+            return Conclusion::new(Why::LimitReached, message);
         }
-        let (termination, message) = if failed == 0 {
+        let (why, message) = if failed == 0 {
             (
-                Termination::Converged,
+                Why::Converged,
                 format!("{count} independent components, at most {steps} Newton steps each, optimality error {error:.1e}"),
             )
         } else {
-            (Termination::Failed, format!("{failed} of {count} independent components were not solved"))
+            (Why::Failed, format!("{failed} of {count} independent components were not solved"))
         };
-        Conclusion { termination, message, invalid: None }
+        Conclusion::new(why, message)
     }
 }
 
 /// Solves one component as a model of its own.
-fn by_sparse_interior_point(pieces: &dyn Pieces, start: &[f64], mut frame: Frame<'_>, piece: &mut Piece<'_>, budget: Budget<'_>) {
+fn by_sparse_interior_point(
+    pieces: &dyn Components,
+    start: &[f64],
+    mut frame: Frame<'_>,
+    piece: &mut Piece<'_>,
+    budget: Budget<'_>,
+) {
     let model = pieces.model(piece.component);
     let evaluator = Evaluator::new(model.as_ref(), budget);
     let variables = pieces.partition().variables(piece.component);
@@ -164,39 +169,27 @@ fn by_sparse_interior_point(pieces: &dyn Pieces, start: &[f64], mut frame: Frame
     frame.take(piece, &point.x, point.multipliers.as_deref().unwrap_or_default());
 }
 
-impl<'a, 's> Solver<&'a Evaluator<'a>, NlpState<'s>> for Components<'a> {
-    fn name(&self) -> &str {
+impl Solver for BlockInteriorPoint<'_> {
+    fn name(&self) -> &'static str {
         "interior point by components"
     }
 
-    fn init(
-        &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let model = given(problem)?;
-        self.advance(model);
-        let point = self.progress();
-        Ok((state.at(point, 0.0, model.evaluations()), None))
+    fn begin(&mut self) -> Progress {
+        self.advance();
+        Progress::at(self.progress(), 0.0)
     }
 
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let model = given(problem)?;
-        if let Err(stop) = model.budget().check(model.evaluations()) {
-            let answer = self.answer(model);
-            return Ok((state.conclude(Conclusion::of(&EvaluationError::Stopped(stop)), Some(answer)), None));
+    fn step(&mut self, is_last: bool) -> Progress {
+        if let Err(stop) = self.model.budget().check(self.model.evaluations()) {
+            let conclusion = Conclusion::of(&EvaluationError::Stopped(stop));
+            return Progress { at: None, ending: Some((conclusion, Some(self.answer()))) };
         }
-        self.advance(model);
-        let point = self.progress();
-        let state = state.at(point, self.step_norm(), model.evaluations());
-        if !self.is_done() && state.get_iter() + 1 < state.get_max_iters() {
-            return Ok((state, None));
+        self.advance();
+        let progress = Progress::at(self.progress(), self.step_norm());
+        if !self.is_done() && !is_last {
+            return progress;
         }
-        let answer = self.answer(model);
-        Ok((state.conclude(self.conclusion(), Some(answer)), None))
+        let answer = self.answer();
+        progress.concluded(self.conclusion(), Some(answer))
     }
 }

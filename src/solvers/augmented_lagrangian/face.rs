@@ -1,26 +1,20 @@
-//! A bounds-only model seen from the face of its box on which some variables rest: what argmin's trust region minimises.
-
-use std::sync::Arc;
-
-use argmin::core::{CostFunction, Error, Gradient, Hessian};
-use argmin_math::ArgminDot;
+//! A bounds-only model seen from the face of its box on which some variables rest: what the trust region minimises.
 
 use crate::model::{EvaluationError, Model, Pattern};
 
 /// The model over its free variables. Points outside the box count as their projection, so that bounds hold in every
 /// evaluation; a projected variable has no derivative.
-#[derive(Clone)]
 pub(super) struct Face<'a> {
     model: &'a dyn Model,
-    free: Arc<Vec<usize>>,
-    base: Arc<Vec<f64>>,
+    free: Vec<usize>,
+    base: Vec<f64>,
 }
 
 impl<'a> Face<'a> {
     /// The face through x on which the variables rest that are at a bound and pushed against it by the gradient.
     pub fn through(model: &'a dyn Model, x: &[f64], gradient: &[f64]) -> Self {
         let free = (0..x.len()).filter(|&j| projected(model, x, gradient, j) != 0.0 || is_inside(model, x, j));
-        Face { free: Arc::new(free.collect()), base: Arc::new(x.to_vec()), model }
+        Face { free: free.collect(), base: x.to_vec(), model }
     }
 
     /// The free variables of the point the face was made through.
@@ -31,7 +25,7 @@ impl<'a> Face<'a> {
     /// All variables, inside the box.
     pub fn complete(&self, w: &[f64]) -> Vec<f64> {
         let meta = self.model.meta();
-        let mut x = self.base.as_ref().clone();
+        let mut x = self.base.clone();
         for (&j, &value) in self.free.iter().zip(w) {
             x[j] = value.max(meta.lower[j]).min(meta.upper[j]);
         }
@@ -47,6 +41,35 @@ impl<'a> Face<'a> {
     fn is_outside(&self, at: usize, w: &[f64]) -> bool {
         let (meta, j) = (self.model.meta(), self.free[at]);
         w[at] < meta.lower[j] || w[at] > meta.upper[j]
+    }
+
+    /// φ; +∞ where it has no value, which makes the trust region shorten this trial step. Never an answer.
+    pub fn value(&self, w: &[f64]) -> Result<f64, EvaluationError> {
+        match self.model.objective(&self.complete(w)) {
+            Err(EvaluationError::Invalid { .. }) => Ok(f64::INFINITY),
+            other => other,
+        }
+    }
+
+    /// ∇φ over the free variables.
+    pub fn gradient(&self, w: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let mut all = vec![0.0; self.base.len()];
+        self.model.gradient(&self.complete(w), &mut all)?;
+        Ok(self.free.iter().enumerate().map(|(at, &j)| if self.is_outside(at, w) { 0.0 } else { all[j] }).collect())
+    }
+
+    /// ∇²φ over the free variables.
+    pub fn hessian(&self, w: &[f64]) -> Result<FaceHessian, EvaluationError> {
+        let pattern = &self.model.meta().hessian;
+        let mut values = vec![0.0; pattern.len()];
+        self.model.hessian(&self.complete(w), 1.0, &[], &mut values)?;
+        let mut position = vec![u32::MAX; self.base.len()];
+        for (at, &j) in self.free.iter().enumerate() {
+            if !self.is_outside(at, w) {
+                position[j] = at as u32;
+            }
+        }
+        Ok(FaceHessian::new(pattern, &values, &position))
     }
 }
 
@@ -66,66 +89,19 @@ pub(super) fn stationarity(model: &dyn Model, x: &[f64], gradient: &[f64]) -> f6
     (0..x.len()).fold(0.0, |largest, j| largest.max(projected(model, x, gradient, j).abs()))
 }
 
-impl CostFunction for Face<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
+/// ∇²φ on a face: its lower triangle by entries (row, column, value).
+pub(super) struct FaceHessian(Vec<(u32, u32, f64)>);
 
-    /// φ; +∞ where it has no value, which makes the trust region shorten this trial step. Never an answer.
-    fn cost(&self, w: &Vec<f64>) -> Result<f64, Error> {
-        match self.model.objective(&self.complete(w)) {
-            Err(EvaluationError::Invalid { .. }) => Ok(f64::INFINITY),
-            other => Ok(other?),
-        }
-    }
-}
-
-impl Gradient for Face<'_> {
-    type Param = Vec<f64>;
-    type Gradient = Vec<f64>;
-
-    fn gradient(&self, w: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let mut all = vec![0.0; self.base.len()];
-        self.model.gradient(&self.complete(w), &mut all)?;
-        Ok(self.free.iter().enumerate().map(|(at, &j)| if self.is_outside(at, w) { 0.0 } else { all[j] }).collect())
-    }
-}
-
-impl Hessian for Face<'_> {
-    type Param = Vec<f64>;
-    type Hessian = FaceHessian;
-
-    fn hessian(&self, w: &Vec<f64>) -> Result<FaceHessian, Error> {
-        let pattern = &self.model.meta().hessian;
-        let mut values = vec![0.0; pattern.len()];
-        self.model.hessian(&self.complete(w), 1.0, &[], &mut values)?;
-        let mut position = vec![u32::MAX; self.base.len()];
-        for (at, &j) in self.free.iter().enumerate() {
-            if !self.is_outside(at, w) {
-                position[j] = at as u32;
-            }
-        }
-        Ok(FaceHessian(Arc::new(Entries::of(pattern, &values, &position))))
-    }
-}
-
-/// ∇²φ on a face, shared because argmin copies it in every iteration.
-#[derive(Clone)]
-pub(super) struct FaceHessian(Arc<Entries>);
-
-/// Lower triangle by entries: row, column, value.
-struct Entries(Vec<(u32, u32, f64)>);
-
-impl Entries {
-    fn of(pattern: &Pattern, values: &[f64], position: &[u32]) -> Self {
+impl FaceHessian {
+    fn new(pattern: &Pattern, values: &[f64], position: &[u32]) -> Self {
         let entries = pattern.iter().zip(values).map(|((row, column), &value)| (position[row], position[column], value));
-        Entries(entries.filter(|&(row, column, value)| row != u32::MAX && column != u32::MAX && value != 0.0).collect())
+        FaceHessian(entries.filter(|&(row, column, value)| row != u32::MAX && column != u32::MAX && value != 0.0).collect())
     }
-}
 
-impl ArgminDot<Vec<f64>, Vec<f64>> for FaceHessian {
-    fn dot(&self, direction: &Vec<f64>) -> Vec<f64> {
+    /// ∇²φ·direction
+    pub fn times(&self, direction: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; direction.len()];
-        for &(row, column, value) in &self.0.0 {
+        for &(row, column, value) in &self.0 {
             let (row, column) = (row as usize, column as usize);
             product[row] += value * direction[column];
             if row != column {

@@ -6,8 +6,8 @@ use super::engine::{Ending, Engine};
 use super::form::{Form, Source};
 use super::scaling;
 use super::start;
-use crate::backends::argmin::state::{Conclusion, Point};
 use crate::model::{EvaluationError, Model};
+use crate::solvers::{Conclusion, Point};
 
 /// Scales that moved by less than this factor still fit.
 const OUTGROWN: f64 = 1e3;

@@ -9,7 +9,7 @@ use super::crossover::Crossover;
 use super::frame::Frame;
 use super::newton::Newton;
 use super::search::Search;
-use crate::backends::argmin::interior_point::pushed;
+use crate::solvers::barrier::pushed;
 
 /// First and last barrier parameter, and how it falls.
 const FIRST_BARRIER: f64 = 0.1;

@@ -12,6 +12,7 @@ use super::restoration::Restoration;
 use super::vectors::moved;
 use super::watchdog::Watchdog;
 use crate::model::EvaluationError;
+use crate::solvers::barrier::longest_multiplier_step;
 
 /// The optimality error at which nothing is left to gain.
 pub(super) const TOLERANCE: f64 = 1e-11;
@@ -278,8 +279,11 @@ impl Engine<'_> {
             (&iterate.z_lower, &iterate.z_upper),
             (&mut direction.z_lower, &mut direction.z_upper),
         );
-        let dual = barrier::longest_multiplier_step(&iterate.z_lower, &direction.z_lower, tau)
-            .min(barrier::longest_multiplier_step(&iterate.z_upper, &direction.z_upper, tau));
+        let dual = longest_multiplier_step(&iterate.z_lower, &direction.z_lower, tau).min(longest_multiplier_step(
+            &iterate.z_upper,
+            &direction.z_upper,
+            tau,
+        ));
         moved(&iterate.y, length, &direction.y, &mut trial.y);
         moved(&iterate.z_lower, dual, &direction.z_lower, &mut trial.z_lower);
         moved(&iterate.z_upper, dual, &direction.z_upper, &mut trial.z_upper);

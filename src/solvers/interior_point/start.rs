@@ -8,6 +8,7 @@ use super::kkt::{Blocks, Kkt, Sides};
 use super::scaling;
 use super::vectors::norm_max;
 use crate::model::{EvaluationError, Meta};
+use crate::solvers::barrier::pushed;
 
 /// Larger least-squares multipliers are no guess worth having.
 const LARGEST_GUESS: f64 = 1e3;
@@ -20,17 +21,6 @@ pub(super) const WARM_PUSH: f64 = 1e-8;
 /// κ₁ and κ₂ of the slacks of large problems: among thousands of rows some slack always stops a step short, unless all of them
 /// begin well inside.
 pub(super) const LARGE_PUSH: f64 = 1.0;
-
-/// Moves a value inside its bounds by at least this push, less where two bounds are close.
-pub(in crate::backends::argmin) fn pushed(value: f64, lower: f64, upper: f64, push: f64) -> f64 {
-    let room = |bound: f64| (push * bound.abs().max(1.0)).min(push * (upper - lower));
-    match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => value.max(lower + room(lower)).min(upper - room(upper)),
-        (true, false) => value.max(lower + push * lower.abs().max(1.0)),
-        (false, true) => value.min(upper - push * upper.abs().max(1.0)),
-        (false, false) => value,
-    }
-}
 
 /// Puts the variables at `start` (the model's x) and evaluates; slacks follow, scales are chosen.
 pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
