@@ -71,19 +71,30 @@ impl Conclusion {
     }
 }
 
+/// An iterate and the way to it.
+#[derive(Debug)]
+pub struct Reached {
+    /// The iterate.
+    pub point: Point,
+    /// Norm of the step there.
+    pub step_norm: f64,
+    /// Objective evaluations so far.
+    pub evaluations: u64,
+}
+
 /// What one iteration came to.
 #[derive(Debug)]
 pub struct Progress {
-    /// The new iterate with the norm of the step there; `None` where the last one stands.
-    pub at: Option<(Point, f64)>,
+    /// The new iterate; `None` where the last one stands.
+    pub at: Option<Reached>,
     /// Set when the run is over: how, and the answer where it is not the best iterate by rank.
     pub ending: Option<(Conclusion, Option<Point>)>,
 }
 
 impl Progress {
     /// A new iterate.
-    pub fn at(point: Point, step_norm: f64) -> Self {
-        Progress { at: Some((point, step_norm)), ending: None }
+    pub fn at(point: Point, step_norm: f64, evaluations: u64) -> Self {
+        Progress { at: Some(Reached { point, step_norm, evaluations }), ending: None }
     }
 
     /// A run that an evaluation error ended.

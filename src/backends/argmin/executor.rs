@@ -4,13 +4,12 @@
 use std::collections::HashMap;
 use std::time::Duration;
 
-use argmin::argmin_error;
 use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, KV, Problem, Solver, State, TerminationReason, TerminationStatus};
 
 use crate::backends::{Iteration, Job};
 use crate::model::Evaluator;
-use crate::solvers::{self, Conclusion, Point, Progress, Why};
+use crate::solvers::{self, Conclusion, Point, Progress, Reached, Why};
 
 /// What a run leaves behind.
 pub(super) struct Finished {
@@ -58,35 +57,28 @@ impl<'a, 's, S: solvers::Solver> Solver<&'a Evaluator<'a>, NlpState<'s>> for Dri
 
     fn init(
         &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
+        _problem: &mut Problem<&'a Evaluator<'a>>,
         state: NlpState<'s>,
     ) -> Result<(NlpState<'s>, Option<KV>), Error> {
         let progress = self.0.begin();
-        Ok((state.take(progress, evaluations(problem)?), None))
+        Ok((state.take(progress), None))
     }
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<&'a Evaluator<'a>>,
+        _problem: &mut Problem<&'a Evaluator<'a>>,
         state: NlpState<'s>,
     ) -> Result<(NlpState<'s>, Option<KV>), Error> {
         let progress = self.0.step(state.iteration + 1 >= state.max_iterations);
-        Ok((state.take(progress, evaluations(problem)?), None))
+        Ok((state.take(progress), None))
     }
-}
-
-fn evaluations(problem: &Problem<&Evaluator<'_>>) -> Result<u64, Error> {
-    let given = problem.problem.map(|model| model.evaluations());
-    given.ok_or_else(|| argmin_error!(NotInitialized, "no model was given"))
 }
 
 /// What the executor carries from iteration to iteration.
 struct NlpState<'a> {
-    current: Option<Point>,
+    current: Option<Reached>,
     best: Option<Point>,
     start: Vec<f64>,
-    step_norm: f64,
-    evaluations: u64,
     conclusion: Option<Conclusion>,
     /// The point to hand back, where it is not the best one by rank.
     answer: Option<Point>,
@@ -101,11 +93,9 @@ struct NlpState<'a> {
 }
 
 impl NlpState<'_> {
-    /// Takes over what an iteration came to, after so many evaluations.
-    fn take(mut self, progress: Progress, evaluations: u64) -> Self {
-        if let Some((point, step_norm)) = progress.at {
-            (self.current, self.step_norm, self.evaluations) = (Some(point), step_norm, evaluations);
-        }
+    /// Takes over what an iteration came to.
+    fn take(mut self, progress: Progress) -> Self {
+        self.current = progress.at.or(self.current);
         let Some((conclusion, answer)) = progress.ending else { return self };
         let reason = TerminationReason::SolverExit(conclusion.message.clone());
         (self.conclusion, self.answer) = (Some(conclusion), answer);
@@ -130,8 +120,6 @@ impl State for NlpState<'_> {
             current: None,
             best: None,
             start: Vec::new(),
-            step_norm: 0.0,
-            evaluations: 0,
             conclusion: None,
             answer: None,
             tolerance: 0.0,
@@ -146,15 +134,15 @@ impl State for NlpState<'_> {
     }
 
     fn update(&mut self) {
-        let Some(point) = &self.current else { return };
+        let Some(Reached { point, .. }) = &self.current else { return };
         if self.best.as_ref().is_none_or(|best| point.ranks_above(best, self.tolerance)) {
-            self.best.clone_from(&self.current);
+            self.best = Some(point.clone());
             self.last_best = self.iteration;
         }
     }
 
     fn get_param(&self) -> Option<&Vec<f64>> {
-        self.current.as_ref().map(|point| &point.x)
+        self.current.as_ref().map(|reached| &reached.point.x)
     }
 
     fn get_best_param(&self) -> Option<&Vec<f64>> {
@@ -174,7 +162,7 @@ impl State for NlpState<'_> {
     }
 
     fn get_cost(&self) -> f64 {
-        self.current.as_ref().map_or(f64::INFINITY, |point| point.objective)
+        self.current.as_ref().map_or(f64::INFINITY, |reached| reached.point.objective)
     }
 
     fn get_best_cost(&self) -> f64 {
@@ -234,14 +222,14 @@ struct Watch;
 
 impl Watch {
     fn show(state: &NlpState<'_>, iteration: u64) {
-        if let (Some(report), Some(point)) = (state.report, &state.current) {
+        if let (Some(report), Some(Reached { point, step_norm, evaluations })) = (state.report, &state.current) {
             report(&Iteration {
                 iteration,
-                evaluations: state.evaluations,
+                evaluations: *evaluations,
                 objective: point.objective,
                 feasibility: point.feasibility,
                 optimality: point.optimality,
-                step_norm: state.step_norm,
+                step_norm: *step_norm,
                 x: &point.x,
             });
         }

@@ -14,8 +14,8 @@ mod trust_region;
 
 use self::faces::minimise;
 use super::{Conclusion, Point, Progress, Solver, Why};
-use crate::model::augmented::{Augmented, MOST_PRODUCTS, needed_products};
-use crate::model::scaled::{Scaled, Scales, valid_start};
+use crate::model::views::augmented::{Augmented, MOST_PRODUCTS, needed_products};
+use crate::model::views::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
 /// Violation must fall to this share of the last one, or the penalty grows.
@@ -35,7 +35,7 @@ const PATIENCE: u32 = 12;
 /// A residual is better where it is below this share of the best one.
 const WORTHWHILE: f64 = 0.8;
 /// Iterations after the stop test passed, so that the answer is better than just accepted.
-const AFTERGLOW: u32 = 2;
+const EXTRA_ITERATIONS_AFTER_PASS: u32 = 2;
 /// Scales that are off by more than this factor are renewed.
 const STALE: f64 = 30.0;
 /// Renewals of scales at the most.
@@ -241,7 +241,8 @@ impl<'a> AugmentedLagrangian<'a> {
         if self.escaped && best.point.relative_violation <= SOLVED {
             return Some(concluded("the objective falls without end".into()));
         }
-        let is_done = best.residual <= TIGHTEST || self.passed.is_some_and(|iterations| iterations >= AFTERGLOW);
+        let is_done =
+            best.residual <= TIGHTEST || self.passed.is_some_and(|iterations| iterations >= EXTRA_ITERATIONS_AFTER_PASS);
         let is_idle = self.idle > PATIENCE;
         let is_infeasible = best.point.relative_violation > SOLVED;
         if !is_done && is_idle && best.residual > SOLVED && self.tries < FIRST_PENALTIES.len() {
@@ -283,15 +284,16 @@ impl Solver for AugmentedLagrangian<'_> {
     }
 
     fn begin(&mut self) -> Progress {
+        let evaluations = self.evaluator.evaluations();
         match self.point(f64::NAN) {
-            Ok(point) => Progress::at(point, 0.0),
+            Ok(point) => Progress::at(point, 0.0, evaluations),
             Err(error) => Progress::failed(&error),
         }
     }
 
     fn step(&mut self, _is_last: bool) -> Progress {
         let progress = match self.iterate() {
-            Ok((point, step_norm)) => Progress::at(point, step_norm),
+            Ok((point, step_norm)) => Progress::at(point, step_norm, self.evaluator.evaluations()),
             Err(error) => return Progress::failed(&error),
         };
         match self.conclusion() {

@@ -110,7 +110,7 @@ impl<'m> Frame<'m> {
     }
 
     /// Turns to the component of this piece.
-    pub fn turn_to(&mut self, piece: &Piece<'_>) {
+    pub fn select(&mut self, piece: &Piece<'_>) {
         self.scales_of(piece);
         let (n, m) = (self.n, self.m);
         for room in [&mut self.x, &mut self.slopes, &mut self.gradient] {
@@ -121,7 +121,7 @@ impl<'m> Frame<'m> {
         }
         self.jacobian.resize(m * n, 0.0);
         self.hessian.resize(n * n, 0.0);
-        self.local.turn_to(piece.component);
+        self.local.select(piece.component);
     }
 
     /// Scales and bounds of the component of this piece, nothing more.

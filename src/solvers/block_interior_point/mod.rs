@@ -158,7 +158,7 @@ fn by_sparse_interior_point(
     if piece.row_scale.contains(&0.0) {
         piece.row_scale.fill(1.0);
     }
-    frame.turn_to(piece);
+    frame.select(piece);
     let header = &mut piece.header;
     header.evaluations = u32::try_from(evaluator.evaluations()).unwrap_or(u32::MAX);
     header.phase = if solved.is_some() { Phase::Solved } else { Phase::Failed };
@@ -176,7 +176,7 @@ impl Solver for BlockInteriorPoint<'_> {
 
     fn begin(&mut self) -> Progress {
         self.advance();
-        Progress::at(self.progress(), 0.0)
+        Progress::at(self.progress(), 0.0, self.model.evaluations())
     }
 
     fn step(&mut self, is_last: bool) -> Progress {
@@ -185,7 +185,7 @@ impl Solver for BlockInteriorPoint<'_> {
             return Progress { at: None, ending: Some((conclusion, Some(self.answer()))) };
         }
         self.advance();
-        let progress = Progress::at(self.progress(), self.step_norm());
+        let progress = Progress::at(self.progress(), self.step_norm(), self.model.evaluations());
         if !self.is_done() && !is_last {
             return progress;
         }

@@ -71,14 +71,14 @@ impl<'m> Stepper<'m> {
 
     /// Back at a component that is under way.
     fn resume(&mut self, piece: &mut Piece<'_>) -> Go {
-        self.frame.turn_to(piece);
+        self.frame.select(piece);
         self.evaluate(piece)
     }
 
     /// The first iterate.
     fn begin(&mut self, piece: &mut Piece<'_>) -> Go {
         piece.row_scale.fill(1.0);
-        self.frame.turn_to(piece);
+        self.frame.select(piece);
         self.push_start(piece);
         if self.evaluate(piece) == Go::Hard {
             return Go::Hard;

@@ -1,7 +1,7 @@
 //! From one run of the engine to the next: anew in better scales where those of the start no longer fit the solution,
 //! and from elsewhere where the first run failed.
 
-use super::begin::Beginning;
+use super::begin::InitialPoint;
 use super::engine::{Ending, Engine};
 use super::form::{Form, Source};
 use super::scaling;
@@ -16,7 +16,7 @@ const SMALLEST_SHARE: f64 = 1e-8;
 /// Runs in new scales at the most.
 const MOST_RESCALED: usize = 3;
 /// Runs from elsewhere, each this share of the way towards the middle of the bounds, with this barrier parameter.
-const ELSEWHERE: [(f64, f64); 2] = [(0.1, 1.0), (0.5, 10.0)];
+const RESTART_POINTS: [(f64, f64); 2] = [(0.1, 1.0), (0.5, 10.0)];
 /// By how much these runs ease the limits of rows, so that rows without an interior have one.
 const EASE: f64 = 1e-9;
 /// Larger problems are not begun again from elsewhere: it would take too long.
@@ -50,10 +50,10 @@ impl Attempts {
         let after_solved =
             self.earlier.as_ref().is_some_and(|(ending, ..)| matches!(ending, Ending::Optimal | Ending::Acceptable));
         let hopeless = matches!(ending, Ending::Diverging(_)) || start.len() > LARGEST_REPEATED || after_solved;
-        let Some(&(share, mu)) = ELSEWHERE.get(self.elsewhere).filter(|_| !hopeless) else { return Ok(None) };
+        let Some(&(share, mu)) = RESTART_POINTS.get(self.elsewhere).filter(|_| !hopeless) else { return Ok(None) };
         self.elsewhere += 1;
         let x = start::towards_middle(model.meta(), start, share);
-        begin(model, Beginning { mu: Some(mu), ease: EASE, ..Beginning::at(&x) })
+        begin(model, InitialPoint { mu: Some(mu), ease: EASE, ..InitialPoint::at(&x) })
     }
 
     fn in_new_scales<'a>(
@@ -68,7 +68,7 @@ impl Attempts {
         let Some(magnitudes) = outgrown(engine, start) else { return Ok(None) };
         self.rescaled += 1;
         let x = engine.form.x(&engine.iterate.w).to_vec();
-        begin(model, Beginning { magnitudes: &magnitudes, ..Beginning::at(&x) })
+        begin(model, InitialPoint { magnitudes: &magnitudes, ..InitialPoint::at(&x) })
     }
 
     /// What the runs came to.
@@ -81,7 +81,7 @@ impl Attempts {
     }
 }
 
-fn begin<'a>(model: &'a dyn Model, beginning: Beginning<'_>) -> Result<Option<Engine<'a>>, EvaluationError> {
+fn begin<'a>(model: &'a dyn Model, beginning: InitialPoint<'_>) -> Result<Option<Engine<'a>>, EvaluationError> {
     match Engine::new(Source::Given(model), beginning) {
         Ok(engine) => Ok(Some(engine)),
         Err(EvaluationError::Invalid { .. }) => Ok(None),

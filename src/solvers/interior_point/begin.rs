@@ -11,7 +11,7 @@ use crate::model::EvaluationError;
 
 /// How to begin.
 #[derive(Clone, Copy)]
-pub(super) struct Beginning<'s> {
+pub(super) struct InitialPoint<'s> {
     /// The model's x.
     pub x: &'s [f64],
     /// What the variables are scaled by: their sizes here.
@@ -26,16 +26,16 @@ pub(super) struct Beginning<'s> {
     pub push: Option<f64>,
 }
 
-impl<'s> Beginning<'s> {
+impl<'s> InitialPoint<'s> {
     /// A cold start.
     pub fn at(x: &'s [f64]) -> Self {
-        Beginning { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
+        InitialPoint { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
     }
 }
 
 impl<'a> Engine<'a> {
     /// At the start, ready to iterate.
-    pub fn new(model: Source<'a>, beginning: Beginning<'_>) -> Result<Self, EvaluationError> {
+    pub fn new(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
         let mut form = Form::new(model, beginning.x, beginning.magnitudes);
         form.ease = beginning.ease;

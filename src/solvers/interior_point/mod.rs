@@ -39,7 +39,7 @@ mod watchdog;
 use super::{Conclusion, Point, Progress, Solver, Why};
 use crate::model::Evaluator;
 use attempts::Attempts;
-use begin::Beginning;
+use begin::InitialPoint;
 use engine::{Ending, Engine};
 use form::Source;
 
@@ -65,9 +65,9 @@ impl Solver for InteriorPoint<'_> {
     }
 
     fn begin(&mut self) -> Progress {
-        let beginning = Beginning { multipliers: self.multipliers.as_deref(), ..Beginning::at(&self.start) };
+        let beginning = InitialPoint { multipliers: self.multipliers.as_deref(), ..InitialPoint::at(&self.start) };
         match Engine::new(Source::Given(self.model), beginning) {
-            Ok(engine) => Progress::at(self.engine.insert(engine).point(), 0.0),
+            Ok(engine) => Progress::at(self.engine.insert(engine).point(), 0.0, self.model.evaluations()),
             Err(error) => Progress::failed(&error),
         }
     }
@@ -75,12 +75,12 @@ impl Solver for InteriorPoint<'_> {
     fn step(&mut self, _is_last: bool) -> Progress {
         let Some(engine) = &mut self.engine else { return self.begin() };
         let ending = match engine.step() {
-            Ok(None) => return Progress::at(engine.point(), engine.step_norm),
+            Ok(None) => return Progress::at(engine.point(), engine.step_norm, self.model.evaluations()),
             Ok(Some(ending)) => ending,
             Err(error) => return Progress::failed(&error),
         };
         let (conclusion, point) = engine.conclude(&ending);
-        let progress = Progress::at(point.clone(), engine.step_norm);
+        let progress = Progress::at(point.clone(), engine.step_norm, self.model.evaluations());
         match self.attempts.next(self.model, &self.start, engine, (ending, conclusion, point)) {
             Ok(Some(next)) => {
                 *engine = next;
@@ -97,7 +97,7 @@ impl Solver for InteriorPoint<'_> {
 
 /// Runs to the end, for components of a larger model. `None`: no minimum was reached.
 pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point> {
-    let mut engine = Engine::new(Source::Given(model), Beginning::at(start)).ok()?;
+    let mut engine = Engine::new(Source::Given(model), InitialPoint::at(start)).ok()?;
     let ending = loop {
         if let Some(ending) = engine.step().ok()? {
             break ending;

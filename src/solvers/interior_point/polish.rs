@@ -20,7 +20,7 @@ const NEXT_TRIAL: f64 = 0.1;
 /// Factors are used again while each step leaves less than this share of the error.
 const WORTHWHILE: f64 = 0.1;
 /// 1/Σ of the slack of a row that is left out.
-const LEFT_OUT: f64 = 1e30;
+const INACTIVE_WEIGHT: f64 = 1e30;
 /// Regularisation where active rows are dependent or the reduced Hessian is singular.
 const REGULARISATION: f64 = 1e-9;
 /// Larger multipliers look like those of dependent rows.
@@ -255,7 +255,7 @@ fn hold_firmly(sides: &[Side], variables: usize, (rigid, free): (f64, f64), sigm
             (true, true) => rigid,
             (false, true) => free,
             (true, false) => f64::INFINITY,
-            (false, false) => 1.0 / LEFT_OUT,
+            (false, false) => 1.0 / INACTIVE_WEIGHT,
         };
     }
 }

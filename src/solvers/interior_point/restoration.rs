@@ -1,7 +1,7 @@
 //! The feasibility restoration: Wächter & Biegler (2006), §3.3. The same engine minimises the violation until the
 //! filter accepts a point again, or a local minimum of the violation shows that there is none nearby.
 
-use super::begin::Beginning;
+use super::begin::InitialPoint;
 use super::elastic::Elastic;
 use super::engine::{Ending, Engine};
 use super::form::Source;
@@ -55,7 +55,7 @@ impl<'a> Engine<'a> {
         let mu = self.mu.max(norm_max(&self.iterate.residual).min(1e3));
         let elastic = Elastic::new(model, &x, rows, zeta, mu)?;
         let start = elastic.meta().start.clone();
-        let beginning = Beginning { mu: Some(mu), push: Some(start::WARM_PUSH), ..Beginning::at(&start) };
+        let beginning = InitialPoint { mu: Some(mu), push: Some(start::WARM_PUSH), ..InitialPoint::at(&start) };
         match Engine::new(Source::Own(Box::new(elastic)), beginning) {
             Ok(engine) => {
                 let last_word = zeta <= LAST_PROXIMITY;

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::{EvaluationError, Meta, Model, Pattern, Substitution};
+use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
 use crate::sections;
 
@@ -12,7 +12,7 @@ use crate::sections;
 const THINNEST: f64 = 1e-9;
 
 /// A model in which some variables are replaced by their difference to another one.
-pub struct Differences {
+pub struct FlangeSubstitution {
     model: Arc<dyn Model + Send>,
     /// For each variable, the one whose value is to be added: x_j = z_j + z_partner.
     partner: Vec<Option<u32>>,
@@ -27,7 +27,7 @@ pub struct Differences {
 
 const NOWHERE: u32 = u32::MAX;
 
-impl Differences {
+impl FlangeSubstitution {
     /// The pairs (h, hw) of the problem whose bounds let the flange vanish.
     pub fn pairs(problem: &Problem) -> Vec<(usize, usize)> {
         let mut taken = vec![false; problem.variables.lower.len()];
@@ -77,7 +77,7 @@ impl Differences {
         }
         let jacobian_slots = connect_jacobian(user, &partner, &replaced, &mut meta);
         let hessian_slots = connect_hessian(user, &partner, &mut meta);
-        Differences { model, partner, replaced, meta, jacobian_slots, hessian_slots }
+        FlangeSubstitution { model, partner, replaced, meta, jacobian_slots, hessian_slots }
     }
 
     fn add_to_partners(&self, values: &mut [f64]) {
@@ -145,7 +145,7 @@ fn connect_hessian(user: &Meta, partner: &[Option<u32>], meta: &mut Meta) -> Vec
         .collect()
 }
 
-impl Substitution for Differences {
+impl Substitution for FlangeSubstitution {
     fn model(&self) -> &dyn Model {
         self
     }
@@ -178,7 +178,7 @@ impl Substitution for Differences {
     }
 }
 
-impl Model for Differences {
+impl Model for FlangeSubstitution {
     fn meta(&self) -> &Meta {
         &self.meta
     }
@@ -243,7 +243,7 @@ impl Model for Differences {
     }
 }
 
-impl Differences {
+impl FlangeSubstitution {
     /// x(z) as it is, not moved into bounds: derivatives must be those of a linear map.
     fn raw(&self, z: &[f64]) -> Vec<f64> {
         let mut x = z.to_vec();
@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn derivatives_stay_exact() {
         let model = model();
-        let differences = Differences::new(Arc::new(model), &[(0, 1)]);
+        let differences = FlangeSubstitution::new(Arc::new(model), &[(0, 1)]);
         let check = derivative_check(&differences, &[0.23, 0.45, 0.3]).unwrap();
         assert_eq!(check.disagreements, 0, "{:?}", check.worst);
         assert!(check.compared > 10);
@@ -284,7 +284,7 @@ mod tests {
     #[test]
     fn points_go_there_and_back_and_bounds_become_a_row() {
         let model = model();
-        let differences = Differences::new(Arc::new(model), &[(0, 1)]);
+        let differences = FlangeSubstitution::new(Arc::new(model), &[(0, 1)]);
         let x = [0.7, 0.5, 0.3];
         let z = differences.inward(&x);
         assert!(z.iter().zip([0.2, 0.5, 0.3]).all(|(z, expected): (&f64, f64)| (z - expected).abs() < 1e-15));

@@ -1,14 +1,14 @@
 //! The same model inside other bounds.
 
-use super::{EvaluationError, Meta, Model};
+use crate::model::{EvaluationError, Meta, Model};
 
 /// A model with its bounds replaced.
-pub struct Rebounded<'a> {
+pub struct WithBounds<'a> {
     model: &'a dyn Model,
     meta: Meta,
 }
 
-impl<'a> Rebounded<'a> {
+impl<'a> WithBounds<'a> {
     /// `model` within `lower ≤ x ≤ upper`; its start is moved inside.
     pub fn new(model: &'a dyn Model, lower: Vec<f64>, upper: Vec<f64>) -> Self {
         let mut meta = model.meta().clone();
@@ -16,11 +16,11 @@ impl<'a> Rebounded<'a> {
         let mut start = std::mem::take(&mut meta.start);
         meta.clamp(&mut start);
         meta.start = start;
-        Rebounded { model, meta }
+        WithBounds { model, meta }
     }
 }
 
-impl Model for Rebounded<'_> {
+impl Model for WithBounds<'_> {
     fn meta(&self) -> &Meta {
         &self.meta
     }

@@ -1,13 +1,13 @@
 //! What one item brings to a template: its variables and numbers, and the shape that decides whose template it may use.
 
-use super::lower::{Item, OwnNumber, cell, end_section};
-use super::plan::Plan;
+use super::expression_graph::{Item, OwnNumber, cell, end_section};
+use super::template_key::TemplateKey;
 use crate::problem::formula::{End, Formula};
 use crate::problem::{Dimension, Problem};
 
 /// One item's variables and numbers by slot, and the shape that decides whether two items may share a template.
 #[derive(Debug, Default)]
-pub(super) struct Gathered {
+pub(super) struct TemplateArguments {
     pub variables: Vec<u32>,
     pub numbers: Vec<f64>,
     pub shape: Vec<u32>,
@@ -19,9 +19,9 @@ pub(super) struct Gathered {
 const NUMBER: u32 = u32::MAX;
 const COMPUTED: u32 = u32::MAX - 1;
 
-impl Gathered {
+impl TemplateArguments {
     /// Reads an item; false where it cannot share a template.
-    pub fn read(&mut self, plan: &Plan, problem: &Problem, item: Item) -> bool {
+    pub fn read(&mut self, plan: &TemplateKey, problem: &Problem, item: Item) -> bool {
         self.variables.clear();
         self.numbers.clear();
         self.shape.clear();

@@ -15,7 +15,7 @@ use super::source::Place;
 use crate::problem::Sense;
 
 /// The whole file.
-pub(super) fn declare(document: &DeTable, reader: &mut Reader) -> Declaration {
+pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declaration {
     let mut top = Fields::of(document, Place::Whole);
     let title = top.take("title").and_then(|field| field.text(reader)).map(|title| title.text);
     let mut declared = Declaration { title, ..Declaration::default() };

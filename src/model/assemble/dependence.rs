@@ -3,15 +3,15 @@
 use crate::problem::{Dimension, Formula, Problem};
 
 /// Two answers per definition and one per section, computed once.
-pub(super) struct Facts {
+pub(super) struct Dependence {
     definition_reaches: Vec<bool>,
     definition_constant: Vec<bool>,
     section_constant: Vec<bool>,
 }
 
-impl Facts {
-    pub fn of(problem: &Problem) -> Facts {
-        let mut facts = Facts {
+impl Dependence {
+    pub fn of(problem: &Problem) -> Dependence {
+        let mut facts = Dependence {
             definition_reaches: vec![false; problem.definitions.len()],
             definition_constant: vec![true; problem.definitions.len()],
             section_constant: Vec::new(),

@@ -1,6 +1,6 @@
 //! The same problem in other variables: what backends solve where that is easier (logarithms, flange thicknesses).
 
-use super::Model;
+use crate::model::Model;
 
 /// A model in substituted variables z with the way there and back. Rows keep their order and meaning; some of its own may follow.
 pub trait Substitution: Sync {

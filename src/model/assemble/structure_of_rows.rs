@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::lower::{Context, Lowering};
+use super::expression_graph::{Context, Lowering};
 use super::walk::{Piece, Sink, Walk, Work};
 use crate::expression::display::display;
 use crate::expression::graph::{Graph, NodeId};
@@ -23,7 +23,7 @@ struct Shape {
 }
 
 /// Collects the shapes of one formula over all items it is repeated for.
-pub(super) struct Survey<'a> {
+pub(super) struct RowStructure<'a> {
     problem: &'a Problem,
     shapes: Vec<Shape>,
     known: HashMap<(Work, Vec<u32>), usize>,
@@ -41,9 +41,9 @@ pub(super) struct Bend {
     pub log_curvature: Curvature,
 }
 
-impl<'a> Survey<'a> {
+impl<'a> RowStructure<'a> {
     pub fn new(problem: &'a Problem) -> Self {
-        Survey { problem, shapes: Vec::new(), known: HashMap::new(), pieces: 0, most_pieces: 0 }
+        RowStructure { problem, shapes: Vec::new(), known: HashMap::new(), pieces: 0, most_pieces: 0 }
     }
 
     /// Adds one row's formula.
@@ -142,7 +142,7 @@ fn joined(a: Curvature, b: Curvature) -> Curvature {
     }
 }
 
-impl Sink for Survey<'_> {
+impl Sink for RowStructure<'_> {
     fn piece(&mut self, piece: &Piece) -> Result<(), TapeError> {
         self.pieces += 1;
         let bounds = &self.problem.variables;

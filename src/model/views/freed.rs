@@ -1,6 +1,6 @@
 //! A model with one limit let go, minimising how far that limit has to move.
 
-use super::{EvaluationError, Meta, Model};
+use crate::model::{EvaluationError, Meta, Model};
 
 /// One side of a row or of a variable's bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,8 +136,8 @@ impl Model for Freed<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample::Sample;
     use super::*;
+    use crate::model::sample::Sample;
 
     #[test]
     fn the_row_let_go_is_the_objective() {

@@ -1,6 +1,6 @@
 //! A model without its rows: the note's bound-convergence test (§4.1.2).
 
-use super::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{EvaluationError, Meta, Model, Pattern};
 
 /// The same objective and bounds, no rows.
 pub struct BoundsOnly<'a> {

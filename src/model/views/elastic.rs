@@ -1,6 +1,6 @@
 //! The elastic problem: how little must the rows give way for a point to exist?
 
-use super::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{EvaluationError, Meta, Model, Pattern};
 
 /// What slacks have to spare at the start, so that interior methods have room and slacks have a size of their own.
 const ROOM: f64 = 0.1;
@@ -190,8 +190,8 @@ impl Model for Elastic<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample::Sample;
     use super::*;
+    use crate::model::sample::Sample;
 
     const INF: f64 = f64::INFINITY;
 

@@ -1,7 +1,7 @@
 //! What the columns of a table are.
 
-use crate::input::assemble::Assembly;
-use crate::input::assemble::data::DataColumns;
+use crate::input::check::Assembly;
+use crate::input::check::data::DataColumns;
 use crate::input::findings::Findings;
 use crate::input::table::Table;
 use crate::problem::nearest::did_you_mean;

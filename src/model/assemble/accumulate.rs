@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::groups::{Groups, Kernels};
-use super::lower::{Lowering, end_section};
+use super::expression_graph::{Lowering, end_section};
+use super::kernel_groups::{Groups, Kernels};
 use super::template::{Target, Template};
 use super::walk::{Piece, Sink, Work};
 use crate::expression::tape::TapeError;

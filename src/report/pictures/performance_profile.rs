@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::number::significant;
-use super::pictures::canvas::{Canvas, Ink, Style};
-use super::profile::{Curve, Profile};
+use super::canvas::{Canvas, Ink, Style};
+use crate::report::number::significant;
+use crate::report::performance_profile::{Curve, Profile};
 
 const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 460.0;

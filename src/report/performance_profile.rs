@@ -39,7 +39,7 @@ impl Profile {
     /// that the resolution of a clock decides nothing.
     ///
     /// ```
-    /// use ribopt::report::profile::Profile;
+    /// use ribopt::report::performance_profile::Profile;
     /// let costs = [vec![Some(1.0), Some(4.0)], vec![Some(2.0), None]];
     /// let profile = Profile::new("evaluations", &["a".into(), "b".into()], &costs, 1.0);
     /// assert_eq!(profile.curves[0].share(1.0), 1.0);

@@ -4,7 +4,7 @@
 //! s = t cut to [c_l, c_u], it is φ(x) = f(x) + ρ/2·Σ(t_i − s_i)². Equalities, one-sided and two-sided rows all follow
 //! that formula; ρ·(t − s) is the next estimate of the multipliers, and ∇φ is ∇L at that estimate.
 
-use super::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{EvaluationError, Meta, Model, Pattern};
 
 /// φ for given multipliers and penalty; see the module's page.
 pub struct Augmented<M> {

@@ -2,13 +2,13 @@
 
 use std::collections::HashSet;
 
-use super::lower::{Item, OwnNumber, end_section};
+use super::expression_graph::{Item, OwnNumber, end_section};
 use crate::problem::formula::{End, Formula};
 use crate::problem::{Dimension, Problem};
 
 /// The names a formula uses, in a fixed order.
 #[derive(Debug, Default)]
-pub(super) struct Plan {
+pub(super) struct TemplateKey {
     /// Uses the item's own section (section scope).
     own: bool,
     from: bool,
@@ -33,18 +33,18 @@ enum Named {
 /// An item whose formula names more global variables than this is compiled by itself.
 const MANY_GLOBALS: usize = 64;
 
-impl Plan {
+impl TemplateKey {
     /// Reads a formula (seeing through definitions).
-    pub fn of(problem: &Problem, formula: &Formula) -> Plan {
-        let mut plan = Plan { shareable: true, ..Plan::default() };
+    pub fn of(problem: &Problem, formula: &Formula) -> TemplateKey {
+        let mut plan = TemplateKey { shareable: true, ..TemplateKey::default() };
         plan.visit(problem, formula);
         plan.shareable &= plan.globals.len() <= MANY_GLOBALS;
         plan
     }
 
     /// The plan of a rib's volume.
-    pub fn volume() -> Plan {
-        Plan { from: true, to: true, numbers: vec![OwnNumber::Length], shareable: true, ..Plan::default() }
+    pub fn volume() -> TemplateKey {
+        TemplateKey { from: true, to: true, numbers: vec![OwnNumber::Length], shareable: true, ..TemplateKey::default() }
     }
 
     fn visit(&mut self, problem: &Problem, formula: &Formula) {
@@ -140,8 +140,8 @@ impl Plan {
         }
     }
 
-    /// Gives out the slots in the order [`Gathered`](super::gathered::Gathered) fills them.
-    pub fn reserve(&self, lowering: &mut super::lower::Lowering, item: Item) {
+    /// Gives out the slots in the order [`TemplateArguments`](super::template_arguments::TemplateArguments) fills them.
+    pub fn reserve(&self, lowering: &mut super::expression_graph::Lowering, item: Item) {
         for section in self.sections(lowering.problem, item).into_iter().flatten() {
             lowering.own_section(section);
         }

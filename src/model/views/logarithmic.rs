@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{EvaluationError, Meta, Model, Pattern, Substitution};
+use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
 
 /// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
 pub struct Logarithmic {

@@ -3,7 +3,7 @@
 /// Whether the whole name matches.
 ///
 /// ```
-/// use ribopt::problem::pattern::matches;
+/// use ribopt::problem::glob::matches;
 /// assert!(matches("web*", "web_12") && matches("?b", "ab") && matches("*", ""));
 /// assert!(!matches("web", "web1"));
 /// ```

@@ -2,31 +2,31 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::local::Apart;
+use super::local::ComponentView;
 use super::members;
 use crate::model::assembled::Affine;
 use crate::model::elements::Group;
 use crate::model::{EvaluationError, Meta, Model, Pattern, RibModel};
 
 /// A component; names are the parent's.
-pub(super) struct Part {
+pub(super) struct Submodel {
     inner: RibModel,
     /// The parent's number of each variable.
     variables: Vec<u32>,
 }
 
-impl Part {
+impl Submodel {
     /// Component k.
-    pub fn of(apart: Apart<'_>, k: usize) -> Part {
-        let partition = &apart.members.partition;
-        let (parent, variables, rows) = (apart.model, partition.variables(k), partition.rows(k));
+    pub fn of(view: ComponentView<'_>, k: usize) -> Submodel {
+        let partition = &view.members.partition;
+        let (parent, variables, rows) = (view.model, partition.variables(k), partition.rows(k));
         let meta = &parent.meta;
         let variable = |values: &[f64]| variables.iter().map(|&j| values[j as usize]).collect();
         let row = |values: &[f64]| rows.iter().map(|&i| values[i as usize]).collect();
         let place = |j: u32| partition.place(j);
         let (jacobian, linear_jacobian) = restricted(&meta.jacobian, rows, place, &parent.linear_jacobian);
         let (hessian, _) = restricted(&meta.hessian, variables, place, &[]);
-        let (objective_groups, row_groups) = copied(apart, k, &jacobian, &hessian);
+        let (objective_groups, row_groups) = copied(view, k, &jacobian, &hessian);
         let coefficients = &parent.objective.coefficients;
         let own = |j: &u32| coefficients.binary_search_by_key(j, |entry| entry.0).ok().map(|at| (place(*j), coefficients[at].1));
         let inner = RibModel {
@@ -50,9 +50,9 @@ impl Part {
             objective_groups,
             row_groups,
             members: OnceLock::new(),
-            stretches: OnceLock::new(),
+            chunks: OnceLock::new(),
         };
-        Part { inner, variables: variables.to_vec() }
+        Submodel { inner, variables: variables.to_vec() }
     }
 }
 
@@ -69,12 +69,12 @@ fn restricted(pattern: &Pattern, rows: &[u32], place: impl Fn(u32) -> u32, value
 }
 
 /// The component's elements, connected to its patterns: of the objective, of the rows.
-fn copied(apart: Apart<'_>, k: usize, jacobian: &Pattern, hessian: &Pattern) -> (Vec<Group>, Vec<Group>) {
-    let partition = &apart.members.partition;
+fn copied(view: ComponentView<'_>, k: usize, jacobian: &Pattern, hessian: &Pattern) -> (Vec<Group>, Vec<Group>) {
+    let partition = &view.members.partition;
     let (mut objective, mut rows): (Vec<Group>, Vec<Group>) = (Vec::new(), Vec::new());
     let mut last = u32::MAX;
-    for member in apart.members.of_component(k) {
-        let group = members::group(apart.model, member.group);
+    for member in view.members.of_component(k) {
+        let group = members::group(view.model, member.group);
         let element = group.view(member.index as usize);
         let list = if element.row.is_some() { &mut rows } else { &mut objective };
         if member.group != last {
@@ -90,7 +90,7 @@ fn copied(apart: Apart<'_>, k: usize, jacobian: &Pattern, hessian: &Pattern) -> 
     (objective, rows)
 }
 
-impl Model for Part {
+impl Model for Submodel {
     fn meta(&self) -> &Meta {
         &self.inner.meta
     }

@@ -3,7 +3,7 @@
 //! Every scale is a power of two, so that scaling and unscaling are exact: a bound stays that very bound, and a point
 //! goes there and back bit for bit.
 
-use super::{EvaluationError, Meta, Model};
+use crate::model::{EvaluationError, Meta, Model};
 
 /// The factors of a [`Scaled`] model, all positive and finite.
 #[derive(Debug, Clone, PartialEq)]

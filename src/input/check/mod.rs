@@ -71,7 +71,7 @@ struct Without {
 }
 
 /// Puts the problem together, reading the tables on the way.
-pub(super) fn assemble(
+pub(super) fn check(
     mut declared: Declaration,
     source: &Source,
     findings: Findings,
