@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Numbering, identity, with_inputs};
 use crate::model::assemble::support_rows;
-use crate::model::mapped::Maps;
+use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
 use crate::problem::formula::{Response, Subject, What};
 use crate::problem::statics::Statics;
