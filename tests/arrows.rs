@@ -14,7 +14,7 @@ const FLOORS: &[&[&str]] = &[
     &["recession", "solvers"],
     &["model"],
     &["problem"],
-    &["ribs", "mesh"],
+    &["ribs", "mesh", "structure"],
     &["sections"],
     &["geometry", "splines", "expression"],
     &["linear_algebra", "math", "files"],

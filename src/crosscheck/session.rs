@@ -58,7 +58,10 @@ impl<'a> Session<'a> {
 
     /// The other variables a backend solves in: states beside the design only where it takes them.
     fn substitution(&self, solver: Solver<'_>) -> Option<&'a dyn Substitution> {
-        let takes = |other: &&'a dyn Substitution| other.model().meta().states.is_none() || solver.backend.takes_states();
+        let states = |model: &dyn Model| model.meta().states.is_some();
+        let own = states(self.task.model);
+        let takes =
+            |other: &&'a dyn Substitution| states(other.model()) == own || states(other.model()) == solver.backend.takes_states();
         self.task.substitution.filter(takes)
     }
 

@@ -213,7 +213,7 @@ impl Model for RibModel {
 
     fn complete(&self, x: &mut [f64]) {
         let first = self.problem.auxiliaries.first().map_or(0, |first| self.rows_before(first.constraints.start));
-        auxiliaries::complete(self, &self.problem.auxiliaries, first, x);
+        auxiliaries::complete(self, &self.problem.auxiliaries, first, x.len(), x);
     }
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {

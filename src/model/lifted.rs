@@ -5,10 +5,11 @@
 mod equations;
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::views::mapped::{Mapped, Maps, Rows};
-use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble};
+use super::views::reduced::{Factors, Stiffness};
+use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
 use crate::problem::structure::{Action, DIRECTIONS, Structure};
@@ -37,13 +38,20 @@ pub trait WithStates: Model {
 }
 
 /// A structure in design variables and displacements.
+///
+/// What the certificate finds at a point whose displacements are those of its design holds for the reduced model, too: multipliers of the
+/// state equations are the adjoints, for which the Lagrangian is stationary in the states; and as the block [L_uu Kᵀ; K 0] has as many
+/// positive as negative eigenvalues whatever L_uu is, the inertia of the lifted system is that of the reduced one and of these
+/// (Haynsworth 1968).
 pub struct Lifted {
     model: Mapped<RibModel>,
     problem: Arc<Problem>,
     states: States,
     /// Node and direction of each state of a block.
     directions: Vec<(u32, u8)>,
-    row_names: usize,
+    stiffness: Stiffness,
+    /// Factors at the design analysed last: their analysis of the pattern serves again.
+    latest: Mutex<Option<Factors>>,
 }
 
 impl Lifted {
@@ -69,13 +77,30 @@ impl Lifted {
         inputs(structure, statics, &numbering, &mut maps);
         let limits = equations::outputs(&inner, structure, statics, &numbering, &mut maps);
         let meta = outer_meta(inner.meta(), states, &limits);
-        Ok(Lifted {
-            model: Mapped::new(inner, maps, meta),
-            problem: Arc::clone(problem),
-            states,
-            directions,
-            row_names: first_row,
-        })
+        let model = Mapped::new(inner, maps, meta);
+        let stiffness = Stiffness::of(model.meta(), states);
+        let problem = Arc::clone(problem);
+        let mut lifted = Lifted { model, problem, states, directions, stiffness, latest: Mutex::default() };
+        lifted.start_analysed();
+        Ok(lifted)
+    }
+
+    /// Starts at the analysed start of the design. A case's largest displacement there, and its largest rotation, are the magnitudes of all.
+    fn start_analysed(&mut self) {
+        let mut start = self.meta().start.clone();
+        self.complete(&mut start);
+        let mut typical = self.meta().typical.clone();
+        let n = self.states.first_variable;
+        for case in 0..self.states.blocks {
+            let of_case = n + case * self.states.block;
+            for turns in [false, true] {
+                let alike = |state: &usize| (self.direction(*state).1 >= 3) == turns;
+                let chosen = || (0..self.states.block).filter(alike).map(|state| of_case + state);
+                let largest = chosen().map(|at| start[at].abs()).fold(0.0, f64::max);
+                chosen().for_each(|at| typical[at] = largest);
+            }
+        }
+        self.model.start_at(start, typical);
     }
 
     /// Its states.
@@ -238,9 +263,22 @@ impl Model for Lifted {
         let auxiliaries = &self.problem.auxiliaries;
         let rows = match auxiliaries.first() {
             Some(first) => self.inner().rows_before(first.constraints.start),
-            None => self.row_names,
+            None => self.states.first_row,
         };
         Own { variables: self.states.first_variable - auxiliaries.len(), rows }
+    }
+
+    /// States are what the analysis of the design says, whatever stood in their place.
+    fn complete(&self, x: &mut [f64]) {
+        let n = self.states.first_variable;
+        let earlier = self.latest.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Ok((z, factors)) = self.stiffness.solve_states(self, &x[..n], earlier) {
+            x[n..].copy_from_slice(&z[n..]);
+            *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(factors);
+        }
+        if let Some((list, first)) = self.auxiliaries() {
+            auxiliaries::complete(self, list, first, n, x);
+        }
     }
 
     fn variable_name(&self, j: usize) -> String {

@@ -28,7 +28,7 @@ pub use class::Class;
 pub use components::Components;
 pub use evaluator::{Budget, Evaluator};
 pub use lifted::{Lifted, States};
-pub use structural::{Assembled, WithDisplacements, assemble_any};
+pub use structural::{Assembled, assemble_any};
 pub use views::reduced::Reduced;
 pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};
 

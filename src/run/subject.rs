@@ -8,8 +8,8 @@ use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::views::flange_substitution::FlangeSubstitution;
 use crate::model::{
-    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements,
-    assemble_any, classify, volumes,
+    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, assemble_any, classify,
+    volumes,
 };
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -103,9 +103,7 @@ impl Subject {
             (_, Assembled::Ribs(model)) if is_dust(model) => None,
             (Some(logarithmic), _) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             (None, Assembled::Ribs(model)) => differences(&problem, model),
-            (None, Assembled::Structure(model)) => {
-                Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>)
-            }
+            (None, Assembled::Structure(_)) => model.other_form(),
         };
         Ok(Subject {
             class,
@@ -123,7 +121,7 @@ impl Subject {
 
     /// The problem in the user's variables, and auxiliaries where kinks were restated, minimised.
     pub fn model(&self) -> &dyn Model {
-        self.model.model()
+        self.model.judge()
     }
 
     /// The problem in the user's variables alone, with all its kinks: what reports speak of.
