@@ -99,7 +99,7 @@ a = \"fixed\"
 kind = \"rectangle\"
 b = 0.1
 h = {{ lower = 0.1, upper = 0.8, start = 0.6 }}
-[sections.tip]
+[sections.thin]
 kind = \"rectangle\"
 b = 0.1
 h = {{ lower = 0.1, upper = 0.8, start = 0.15 }}
@@ -108,7 +108,7 @@ name = \"m\"
 start = \"a\"
 end = \"b\"
 from = \"root\"
-to = \"tip\"
+to = \"thin\"
 [[loads]]
 case = \"P\"
 nodes = [\"b\"]
@@ -253,7 +253,7 @@ fn reactions_carry_the_loads() {
 #[test]
 fn derivatives_agree_with_differences() {
     let text = format!(
-        "minimize = \"volume\"\n[structure]\nstations = 3\n{MATERIAL}
+        "minimize = \"volume\"\n[structure]\nstations = 3\ngravity = [0, 0, -1]\n{MATERIAL}
 [variables]
 rise = {{ lower = 1, upper = 4, start = 2.2 }}
 [nodes]
