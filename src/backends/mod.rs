@@ -8,6 +8,11 @@ use crate::model::{Budget, Model};
 
 /// One solver family.
 pub trait Backend: Sync {
+    /// Whether it takes states and their equations beside the design, rather than the design alone.
+    fn takes_states(&self) -> bool {
+        false
+    }
+
     /// `nlopt`, `argmin`.
     fn name(&self) -> &'static str;
 

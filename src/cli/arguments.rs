@@ -59,6 +59,8 @@ pub enum Command {
     Bounds(Bounds),
     /// Read and validate, check the derivatives, tell class and sizes; solve nothing
     Check(Check),
+    /// What the structure does at the start or at an answer: displacements, reactions, forces, stresses; solve nothing
+    Analyse(Analyse),
     /// The certificate for a point found elsewhere
     Verify(Verify),
     /// Properties of cross-sections, and a picture of them
@@ -232,6 +234,22 @@ pub struct Verify {
     pub changes: Changes,
     #[command(flatten)]
     pub limits: Limits,
+}
+
+#[derive(Debug, Args)]
+pub struct Analyse {
+    /// The problem file (TOML)
+    pub file: PathBuf,
+    /// Where: a result.json, or a CSV with the columns name,value; the start without it
+    pub answer: Option<PathBuf>,
+    /// Print everything as one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+    /// The derivative of every definition by every variable, too
+    #[arg(long)]
+    pub gradient: bool,
+    #[command(flatten)]
+    pub changes: Changes,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

@@ -1,5 +1,6 @@
 //! Arguments, subcommands, the live table, Ctrl-C. Everything here ends in an exit code; nothing is decided here.
 
+mod analyse;
 mod arguments;
 mod bounds;
 mod check;
@@ -43,6 +44,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Analyse(arguments) => analyse::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),

@@ -5,7 +5,7 @@ use super::{Answer, Task};
 use super::{pool, work};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
-use crate::model::{Budget, Class, Model};
+use crate::model::{Budget, Class, Model, Substitution};
 
 /// A solver may stop where the certificate holds with this much to spare: answers are usually far better than what is accepted.
 const SPARE: f64 = 1e-3;
@@ -56,9 +56,16 @@ impl<'a> Session<'a> {
         self.task.substitution.map_or(self.task.model, |other| other.model())
     }
 
+    /// The other variables a backend solves in: states beside the design only where it takes them.
+    fn substitution(&self, solver: Solver<'_>) -> Option<&'a dyn Substitution> {
+        let takes = |other: &&'a dyn Substitution| other.model().meta().states.is_none() || solver.backend.takes_states();
+        self.task.substitution.filter(takes)
+    }
+
     /// Work one evaluation of the working model costs a backend.
     pub(super) fn cost(&self, solver: Solver<'_>) -> f64 {
-        solver.backend.work_per_evaluation(self.working_model()).max(1.0)
+        let model = self.substitution(solver).map_or(self.task.model, |other| other.model());
+        solver.backend.work_per_evaluation(model).max(1.0)
     }
 
     /// A budget of so much work on `model`, with a deadline far beyond what that should take.
@@ -81,7 +88,7 @@ impl<'a> Session<'a> {
         let mut start = start.to_vec();
         self.task.model.complete(&mut start);
         let start = start.as_slice();
-        let Some(other) = self.task.substitution else {
+        let Some(other) = self.substitution(solver) else {
             let stop = |x: &[f64]| self.strict.accepts(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
             let start = Start { x: start, multipliers, budget, stop: &stop, part: Some(&part) };
@@ -97,7 +104,7 @@ impl<'a> Session<'a> {
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
         let start = Start { x: &inward, multipliers: None, budget, stop: &stop, part: None };
         let mut solution = self.solve(solver, other.model(), &start, &mut translated);
-        solution.multipliers = None;
+        solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(&y));
         solution.x = self.outward(&solution.x);
         self.judged(solver, solution)
     }

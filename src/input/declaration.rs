@@ -132,5 +132,7 @@ pub(super) struct ConstraintEntry {
     pub kind: Option<Written>,
     pub filter: Option<Written>,
     pub by: Option<Written>,
+    /// Patterns of cases and combinations.
+    pub cases: Vec<Written>,
     pub require: Option<Written>,
 }

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::auxiliaries;
 use super::components::{Apart, Components, Members};
 use super::elements::{Group, Label};
 use super::stretches::Stretches;
@@ -211,27 +212,8 @@ impl Model for RibModel {
     }
 
     fn complete(&self, x: &mut [f64]) {
-        let own = self.own();
-        if own.variables == x.len() {
-            return;
-        }
-        let kept = x[own.variables..].to_vec();
-        x[own.variables..].fill(0.0);
-        let auxiliaries = &self.problem.auxiliaries;
-        let levels = auxiliaries.iter().map(|auxiliary| auxiliary.level).max().unwrap_or(0);
-        let mut values = vec![0.0; self.meta.rows()];
-        for level in 0..=levels {
-            // Rows of the user may have no value while the auxiliaries are zero; those that bound the auxiliaries are read alone.
-            let _ = self.constraints(x, &mut values);
-            for (at, auxiliary) in auxiliaries.iter().enumerate().filter(|(_, auxiliary)| auxiliary.level == level) {
-                // A row of these is piece − t, and t is zero: one row per constraint.
-                let first = own.rows + auxiliary.constraints.start - auxiliaries[0].constraints.start;
-                let pieces = &values[first..first + auxiliary.constraints.len()];
-                let decides = if auxiliary.above { f64::max } else { f64::min };
-                let value = pieces.iter().copied().reduce(decides).filter(|_| pieces.iter().all(|piece| piece.is_finite()));
-                x[own.variables + at] = value.unwrap_or(kept[at]);
-            }
-        }
+        let first = self.problem.auxiliaries.first().map_or(0, |first| self.rows_before(first.constraints.start));
+        auxiliaries::complete(self, &self.problem.auxiliaries, first, x);
     }
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::mapped::{Mapped, Maps, Rows};
 use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble};
+use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
 use crate::problem::structure::{Action, DIRECTIONS, Structure};
 use crate::problem::{Origin, Problem};
@@ -25,6 +26,14 @@ pub struct States {
     pub block: usize,
     /// Number of blocks. All have the same matrix ∂R/∂u.
     pub blocks: usize,
+}
+
+/// A model with states.
+pub trait WithStates: Model {
+    /// Design variables in the place of kinks, the last ones of the design, and the first of the rows that bound them.
+    fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
+        None
+    }
 }
 
 /// A structure in design variables and displacements.
@@ -190,6 +199,13 @@ fn outer_meta(inner: &Meta, states: States, loads: &[f64]) -> Meta {
         objective_is_linear: inner.objective_is_linear,
         states: Some(states),
         ..Meta::default()
+    }
+}
+
+impl WithStates for Lifted {
+    fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
+        let auxiliaries = &self.problem.auxiliaries;
+        auxiliaries.first().map(|first| (auxiliaries.as_slice(), self.inner().rows_before(first.constraints.start)))
     }
 }
 

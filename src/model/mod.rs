@@ -6,6 +6,7 @@
 mod assemble;
 mod assembled;
 pub mod augmented;
+mod auxiliaries;
 pub mod bounds_only;
 pub mod class;
 pub mod components;
@@ -19,8 +20,9 @@ pub mod freed;
 pub mod lifted;
 pub mod logarithmic;
 pub mod mapped;
-pub mod rebounded;
 pub mod reduced;
+pub mod structural;
+pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod scaled;
@@ -36,10 +38,11 @@ pub use class::Class;
 pub use components::Components;
 pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
-pub use freed::{Freed, Limit};
 pub use lifted::{Lifted, States};
-pub use rebounded::Rebounded;
 pub use reduced::Reduced;
+pub use structural::{Assembled, WithDisplacements, assemble_any};
+pub use freed::{Freed, Limit};
+pub use rebounded::Rebounded;
 pub use substitution::Substitution;
 
 /// What is known of a model before any evaluation.

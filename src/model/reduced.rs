@@ -8,7 +8,7 @@ mod solve;
 
 use std::sync::Mutex;
 
-use super::lifted::States;
+use super::lifted::{States, WithStates};
 use super::{EvaluationError, Meta, Model, Own, Pattern};
 pub use solve::{Mechanism, Stiffness};
 
@@ -29,7 +29,7 @@ struct Latest {
     z: Vec<f64>,
 }
 
-impl<M: Model> Reduced<M> {
+impl<M: WithStates> Reduced<M> {
     /// The lifted model's design; `None` where it has no states.
     pub fn of(lifted: M) -> Option<Self> {
         let own = lifted.meta();
@@ -209,7 +209,7 @@ fn dense_lower(n: usize) -> Pattern {
     Pattern::from_positions(n, &mut positions)
 }
 
-impl<M: Model> Model for Reduced<M> {
+impl<M: WithStates> Model for Reduced<M> {
     fn meta(&self) -> &Meta {
         &self.meta
     }
@@ -268,7 +268,9 @@ impl<M: Model> Model for Reduced<M> {
     }
 
     fn complete(&self, x: &mut [f64]) {
-        self.lifted.complete(x);
+        if let Some((auxiliaries, first)) = self.lifted.auxiliaries() {
+            super::auxiliaries::complete(self, auxiliaries, first, x);
+        }
     }
 
     fn variable_name(&self, j: usize) -> String {

@@ -18,6 +18,11 @@ pub trait Substitution: Sync {
         value
     }
 
+    /// Row multipliers of the user's model from those of the substituted one, where they say anything of each other.
+    fn outward_multipliers(&self, _y: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
     /// Pairs (a, b) of user variables whose difference a − b has all but vanished at x: only a bound of the substituted model's own
     /// keeps it positive.
     fn vanishing(&self, _x: &[f64]) -> Vec<(usize, usize)> {

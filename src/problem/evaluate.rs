@@ -86,6 +86,7 @@ impl<'a> Evaluation<'a> {
             },
             Formula::EndProperty(end, property) => self.property(self.end(*end, item)?, &property.0),
             Formula::OwnLength => match item {
+                Item::Rib(r) if self.problem.structure.as_deref().is_some_and(|structure| structure.moves(r)) => None,
                 Item::Rib(r) => self.problem.ribs.length.get(r as usize).copied(),
                 _ => None,
             },
@@ -94,6 +95,14 @@ impl<'a> Evaluation<'a> {
                 Item::Rib(r) => number(self.problem.ribs.data.get(*column as usize)?, r),
                 Item::Node(n) => number(self.problem.columns(Collection::Nodes).get(*column as usize)?, n),
                 Item::None => None,
+            },
+            Formula::OwnMaterial(name) => match item {
+                Item::Rib(r) => {
+                    let structure = self.problem.structure.as_deref()?;
+                    let member = structure.members.get(structure.member(r)? as usize)?;
+                    super::resolve::response::number(structure, member.material, name)
+                }
+                _ => None,
             },
             Formula::EndData(end, column) => number(self.problem.sections.data.get(*column as usize)?, self.end(*end, item)?),
             Formula::Profile(profile, at) => {

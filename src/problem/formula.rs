@@ -74,6 +74,8 @@ pub enum What {
     Compliance,
     /// A rib's mass by its density (∫A dx).
     Mass,
+    /// The length of a rib whose nodes move with the design.
+    Length,
     /// A basic force of a member: state equations are made of them.
     Basic(u8),
     /// What the supports of the simply supported member exert, see [`crate::structure::Beam::support_forces`].
@@ -120,6 +122,8 @@ pub enum Formula {
     OwnData(u32),
     /// In a rib's scope: the number in a section data column at one end (`from.c`).
     EndData(End, u32),
+    /// In a rib's scope: a number of its material.
+    OwnMaterial(Arc<str>),
     /// `profile(depth, s)` where s follows from the item's data: a profile's number and its parameter, free of variables.
     /// (With a constant s it is a [`Formula::Fold`] of control variables.)
     Profile(u32, Box<Formula>),
@@ -145,6 +149,18 @@ pub enum Formula {
 }
 
 impl Formula {
+    /// Whether a response other than a mass stands inside (definitions aside).
+    pub fn analyses(&self) -> bool {
+        match self {
+            Formula::Response(response) => !matches!(response.what, What::Mass | What::Length),
+            Formula::Unary(_, inner) | Formula::Profile(_, inner) => inner.analyses(),
+            Formula::Binary(_, left, right) => left.analyses() || right.analyses(),
+            Formula::Fold(_, list) => list.iter().any(Formula::analyses),
+            Formula::Over { body, .. } => body.analyses(),
+            _ => false,
+        }
+    }
+
     /// The number, where it is one.
     pub fn as_constant(&self) -> Option<f64> {
         match self {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::evaluate::{Evaluation, Item};
-use super::formula::Members;
+use super::formula::{Members, Response, Subject};
 use super::range::end_section;
 use super::{Formula, Problem};
 use crate::expression::ast::Collection;
@@ -23,12 +23,21 @@ impl Problem {
                 Item::Rib(rib) => Formula::RibVolume(rib),
                 _ => return None,
             },
-            Formula::OwnLength | Formula::OwnData(_) | Formula::EndData(..) => {
+            Formula::OwnLength | Formula::OwnData(_) | Formula::OwnMaterial(_) | Formula::EndData(..) => {
                 Formula::Constant(Evaluation::constants(self).value(formula, item)?)
             }
             Formula::Profile(profile, at) => {
                 let s = Evaluation::constants(self).value(at, item)?;
                 self.profiles.get(*profile as usize)?.at(s)?
+            }
+            Formula::Response(response) => {
+                let subject = match (response.subject, item) {
+                    (Subject::Own, Item::Rib(rib)) => Subject::Rib(rib),
+                    (Subject::Own, Item::Node(node)) => Subject::Node(node),
+                    (Subject::Own, _) => return None,
+                    (named, _) => named,
+                };
+                Formula::Response(Arc::new(Response { subject, ..Response::clone(response) }))
             }
             Formula::Unary(op, inner) => Formula::Unary(*op, boxed(inner)?),
             Formula::Binary(op, left, right) => Formula::Binary(*op, boxed(left)?, boxed(right)?),

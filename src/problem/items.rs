@@ -95,7 +95,8 @@ mod tests {
         let depth = Formula::SectionProperty(3, Property("h".into()));
         let problem = Problem { definitions: vec![("depth".into(), depth)], ..Problem::default() };
         let constraint = Constraint {
-            name: "c".into(),
+            detail: Box::default(),
+name: "c".into(),
             place: String::new(),
             text: String::new(),
             scope: Scope::Ribs(vec![5, 7]),

@@ -101,6 +101,13 @@ impl Problem {
         self.statics = statics::Statics::of(self).map(Arc::new);
     }
 
+    /// Whether the objective, a row or a definition asks what the structure does.
+    pub fn analyses(&self) -> bool {
+        let rows = self.constraints.iter().flat_map(|constraint| [&constraint.left].into_iter().chain(constraint.right.formulas()));
+        let definitions = self.definitions.iter().map(|(_, formula)| formula);
+        self.statics.is_some() && rows.chain(definitions).chain([&self.objective]).any(Formula::analyses)
+    }
+
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.
     pub fn variable_name(&self, j: usize) -> String {
         match self.variables.origin[j] {
@@ -116,15 +123,19 @@ impl Problem {
 
     /// The name of the row that constraint `c` states for its item number `item`: `sag`, `sag[L0]`.
     pub fn row_name(&self, c: usize, item: usize) -> String {
-        let Constraint { name, scope, .. } = &self.constraints[c];
-        match scope {
-            Scope::Once => name.clone(),
-            Scope::Sections(items) => format!("{name}[{}]", self.item_name(Collection::Sections, items[item])),
-            Scope::Ribs(items) => format!("{name}[{}]", self.item_name(Collection::Ribs, items[item])),
-            Scope::Nodes(items) => format!("{name}[{}]", self.item_name(Collection::Nodes, items[item])),
-            Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => {
-                format!("{name}[{}]", groups[item].0)
-            }
+        let Constraint { name, scope, detail, .. } = &self.constraints[c];
+        let of = match scope {
+            Scope::Once => "",
+            Scope::Sections(items) => &self.sections.names[items[item] as usize],
+            Scope::Ribs(items) => &self.ribs.names[items[item] as usize],
+            Scope::Nodes(items) => self.item_name(Collection::Nodes, items[item]),
+            Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => &groups[item].0,
+        };
+        match (of.is_empty(), detail.is_empty()) {
+            (true, true) => name.clone(),
+            (false, true) => format!("{name}[{of}]"),
+            (true, false) => format!("{name}[{detail}]"),
+            (false, false) => format!("{name}[{of}, {detail}]"),
         }
     }
 
@@ -290,6 +301,9 @@ pub enum Cells {
 pub struct Constraint {
     /// Its name; rows of a scoped one are `name[item]`, of an unnamed one `c1`, `c2`, ….
     pub name: String,
+    /// What tells its rows from those of the same declaration at another case, station or point: `ULS, 0.5, top-left`; empty where it
+    /// is spread over none.
+    pub detail: Box<str>,
     /// Where it stands, ready to print: `file.toml:12`.
     pub place: String,
     /// The text of `require`, for reports.

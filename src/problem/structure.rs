@@ -295,6 +295,13 @@ impl Structure {
         }
     }
 
+    /// Whether a rib's ends move with the design.
+    pub fn moves(&self, rib: u32) -> bool {
+        let Some(member) = self.member(rib).and_then(|member| self.members.get(member as usize)) else { return false };
+        let varies = |node: u32| self.nodes.position[node as usize].iter().any(|at| !matches!(at, Dimension::Constant(_)));
+        varies(member.start) || varies(member.end)
+    }
+
     /// The member a rib is.
     pub fn member(&self, rib: u32) -> Option<u32> {
         self.member_of_rib.get(rib as usize).copied().flatten()

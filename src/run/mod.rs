@@ -1,5 +1,6 @@
 //! One run, start to finish: read, assemble, solve, certify, compare, leave the files.
 
+pub mod analyse;
 pub mod bounds;
 pub mod check;
 pub mod choice;

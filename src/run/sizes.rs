@@ -97,7 +97,8 @@ pub(super) fn rib_volumes(
         restated.ribs.law.fill(law);
     }
     restated.constraints = vec![Constraint {
-        name: "volume".into(),
+        detail: Box::default(),
+name: "volume".into(),
         place: String::new(),
         text: String::new(),
         scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),

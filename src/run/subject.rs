@@ -7,7 +7,11 @@ use super::RunError;
 use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::differences::Differences;
-use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
+use crate::model::{
+    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements, assemble,
+    assemble_any, classify,
+    volumes,
+};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
 use crate::report::result::Mistake;
@@ -31,9 +35,9 @@ pub struct Subject {
     /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
     pub warnings: Vec<String>,
     /// The model that is solved.
-    model: Arc<RibModel>,
+    model: Assembled,
     /// The same as it was written: kinks stay, and there are no auxiliaries.
-    shown: Arc<RibModel>,
+    shown: Assembled,
     /// Which terms keep it from being a geometric program and from being convex.
     pub not_geometric: Option<String>,
     /// Which term keeps it from being convex.
@@ -87,16 +91,20 @@ impl Subject {
             let mistake = Mistake { file: Some(about.file.clone()), ..Mistake::of_command(error.to_string()) };
             RunError::Input(format!("mistake: {error}\n--> {}", about.file), vec![mistake])
         };
-        let model = Arc::new(assemble(&problem).map_err(too_dense)?);
+        let model = assemble_any(&problem).map_err(too_dense)?;
         let shown = match problem.auxiliaries.is_empty() {
-            true => Arc::clone(&model),
-            false => Arc::new(assemble(&Arc::new(problem.with_kinks())).map_err(too_dense)?),
+            true => model.clone(),
+            false => assemble_any(&Arc::new(problem.with_kinks())).map_err(too_dense)?,
         };
-        let Classification { class, logarithmic, not_geometric, not_convex } = classify(&model).map_err(too_dense)?;
-        let substitution = match logarithmic {
-            _ if is_dust(&model) => None,
-            Some(logarithmic) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
-            None => differences(&problem, &model),
+        let Classification { class, logarithmic, not_geometric, not_convex } = match &model {
+            Assembled::Ribs(model) => classify(model).map_err(too_dense)?,
+            Assembled::Structure(_) => Classification::nonlinear(),
+        };
+        let substitution = match (logarithmic, &model) {
+            (_, Assembled::Ribs(model)) if is_dust(model) => None,
+            (Some(logarithmic), _) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
+            (None, Assembled::Ribs(model)) => differences(&problem, model),
+            (None, Assembled::Structure(model)) => Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>),
         };
         Ok(Subject {
             class,
@@ -114,18 +122,19 @@ impl Subject {
 
     /// The problem in the user's variables, and auxiliaries where kinks were restated, minimised.
     pub fn model(&self) -> &dyn Model {
-        self.model.as_ref()
+        self.model.model()
     }
 
     /// The problem in the user's variables alone, with all its kinks: what reports speak of.
     pub fn shown(&self) -> &dyn Model {
-        self.shown.as_ref()
+        self.shown.model()
     }
 
     /// A point in the user's variables with the auxiliaries that follow from it.
     pub fn completed(&self, mut x: Vec<f64>) -> Vec<f64> {
-        x.extend(self.model.meta().start.iter().skip(x.len()));
-        self.model.complete(&mut x);
+        let model = self.model();
+        x.extend(model.meta().start.iter().skip(x.len()));
+        model.complete(&mut x);
         x
     }
 
@@ -137,6 +146,14 @@ impl Subject {
     /// The same in variables that are easier to solve in, where there are any.
     pub fn substitution(&self) -> Option<&dyn Substitution> {
         self.substitution.as_deref().map(|other| other as &dyn Substitution)
+    }
+
+    /// The structure's analysis, where the problem asks for any.
+    pub fn analysis(&self) -> Option<&Reduced<Lifted>> {
+        match &self.shown {
+            Assembled::Structure(model) => Some(model),
+            Assembled::Ribs(_) => None,
+        }
     }
 
     /// −1 where the user maximises.
@@ -182,7 +199,7 @@ fn differences(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Subst
 /// A row whose value is a total volume.
 fn volume_row(total: Total) -> Constraint {
     let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
-    Constraint { name: String::new(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
+    Constraint { name: String::new(), detail: Box::default(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
 }
 
 /// A mistake of the reader as reports show it.

@@ -23,7 +23,8 @@ fn rib() -> Problem {
     let form = sections::forms().position(|(_, form)| form.kind == "rectangle").unwrap() as u16;
     let dimension = |section, position| Origin::Dimension(section, position);
     let stiff = Constraint {
-        name: "stiff".into(),
+        detail: Box::default(),
+name: "stiff".into(),
         place: "rib.toml:9".into(),
         text: "left.Ix >= 1e-4".into(),
         scope: Scope::Once,

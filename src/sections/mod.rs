@@ -247,6 +247,16 @@ pub fn offers(form: &Form, name: &str) -> bool {
     kind.property(&mut graph, &Given { form, dimensions: &dimensions, outline: &[] }, name).is_some()
 }
 
+/// Whether torsion and a shear force both make shear stress at a point of sections given in this form.
+pub fn twists(number: u16, point: &str) -> bool {
+    let form = form(number);
+    let mut graph = Graph::new();
+    let dimensions: Vec<NodeId> = (0..form.dimensions.len() as u32).map(|slot| graph.input(slot)).collect();
+    let given = Given { form, dimensions: &dimensions, outline: &[] };
+    let fibre = kind_of(number).fibre(&mut graph, &given, point);
+    fibre.is_some_and(|fibre| fibre.per_torque.is_some() && (fibre.per_vy.is_some() || fibre.per_vz.is_some()))
+}
+
 /// The number of a form.
 pub fn form_number(form: &Form) -> Option<u16> {
     forms().position(|(_, candidate)| candidate == form).and_then(|at| u16::try_from(at).ok())

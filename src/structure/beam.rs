@@ -59,11 +59,10 @@ impl Beam<'_> {
     pub fn terms(&self, graph: &mut Graph) -> Vec<Term<NodeId>> {
         let mut terms = self.loads.terms.clone();
         let Some(weight) = self.loads.weight else { return terms };
-        for (power, coefficient) in self.area_coefficients(graph).into_iter().enumerate() {
+        for (power, coefficient) in self.section.area_coefficients(graph).into_iter().enumerate() {
             let axial = Algebra::multiply(graph, self.length, coefficient);
             let transverse = Algebra::multiply(graph, self.length, axial);
-            let ways =
-                [(Way::Axial, weight[0], axial), (Way::Lateral, weight[1], transverse), (Way::Vertical, weight[2], transverse)];
+            let ways = [(Way::Axial, weight[0], axial), (Way::Lateral, weight[1], transverse), (Way::Vertical, weight[2], transverse)];
             for (way, component, factor) in ways {
                 let value = Algebra::multiply(graph, component, factor);
                 if graph.as_constant(value) != Some(0.0) {
@@ -74,28 +73,10 @@ impl Beam<'_> {
         terms
     }
 
-    /// c0, c1, c2 of A(ξ) = c0 + c1·ξ + c2·ξ² through the areas at both ends and in the middle: exact for areas that are products
-    /// of two dimensions.
-    fn area_coefficients(&self, graph: &mut Graph) -> Vec<NodeId> {
-        let start = self.section.property(graph, 0.0, "A");
-        if self.section.is_prismatic() {
-            return vec![start];
-        }
-        let (middle, end) = (self.section.property(graph, 0.5, "A"), self.section.property(graph, 1.0, "A"));
-        let mut combined = |factors: [f64; 3]| {
-            let parts =
-                [(factors[0], start), (factors[1], middle), (factors[2], end)].map(|(factor, area)| graph.scale(factor, area));
-            graph.sum(&parts)
-        };
-        let (linear, quadratic) = (combined([-3.0, 4.0, -1.0]), combined([2.0, -4.0, 2.0]));
-        vec![start, linear, quadratic]
-    }
-
     /// Points and weights for integrals over the length, cut also at `more`.
     fn quadrature(&self, terms: &[Term<NodeId>], more: Option<f64>) -> Vec<(f64, f64)> {
         let loads = terms.iter().flat_map(|term| term.spread.breaks());
-        let mut breaks: Vec<f64> =
-            self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
+        let mut breaks: Vec<f64> = self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         quadrature::pieces(&breaks, !self.section.is_prismatic())
@@ -214,18 +195,6 @@ impl Beam<'_> {
 }
 
 impl Beam<'_> {
-    /// ∫A dx.
-    pub fn volume(&self, graph: &mut Graph) -> NodeId {
-        let parts: Vec<NodeId> = self
-            .area_coefficients(graph)
-            .into_iter()
-            .enumerate()
-            .map(|(power, coefficient)| graph.scale(1.0 / (power as f64 + 1.0), coefficient))
-            .collect();
-        let mean = graph.sum(&parts);
-        graph.multiply(self.length, mean)
-    }
-
     /// σ = N/A − My·Y/Ix − Mz·X/Iy at a point of the section.
     pub fn stress(&self, graph: &mut Graph, x: f64, point: &str) -> NodeId {
         let Some(fibre) = self.fibre(graph, x, point) else { return graph.constant(f64::NAN) };

@@ -33,6 +33,10 @@ impl Backend for Argmin {
         "argmin"
     }
 
+    fn takes_states(&self) -> bool {
+        true
+    }
+
     fn algorithms(&self) -> &'static [&'static str] {
         &[INTERIOR_POINT, AUGMENTED_LAGRANGIAN]
     }

@@ -83,6 +83,24 @@ impl<'a> Cursor<'a> {
         if self.accept(symbol) { Ok(()) } else { Err(self.unexpected(&format!("an operator or `{symbol}`"))) }
     }
 
+    /// The text up to the comma or closing bracket that ends an argument, taken as it stands; `None` where there is none.
+    pub(super) fn raw_argument(&mut self) -> Option<(&'a str, Span)> {
+        let (mut at, mut depth) = (self.at, 0usize);
+        loop {
+            match self.tokens.get(at)?.kind {
+                Kind::Symbol("," | ")") if depth == 0 => break,
+                Kind::Symbol("(") => depth += 1,
+                Kind::Symbol(")") => depth -= 1,
+                _ => {}
+            }
+            at += 1;
+        }
+        let (first, last) = (self.tokens.get(self.at)?.span, self.tokens[at.checked_sub(1).filter(|&last| last >= self.at)?].span);
+        self.at = at;
+        let span = Span { start: first.start, end: last.end };
+        Some((&self.text[span.start..span.end], span))
+    }
+
     /// The text must end here.
     pub(super) fn finish(&self) -> Parsed<()> {
         if self.at >= self.tokens.len() { Ok(()) } else { Err(self.unexpected("an operator or the end")) }

@@ -112,7 +112,7 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
     if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
         return over(cursor, fold, collection);
     }
-    let arguments = arguments(cursor)?;
+    let arguments = if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };
     let span = cursor.since(place.start);
     if let Some(fold) = fold {
         check_arity(cursor, name, span, arguments.len(), 1, usize::MAX);
@@ -138,6 +138,66 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
         cursor.mistakes.push(error.help("a product is written with `*`"));
     }
     Ok(AstKind::Call(name.to_string(), arguments))
+}
+
+/// Functions whose arguments may be words: names of cases, ribs, nodes and points, which may hold a hyphen or stand in quotes.
+pub(crate) const RESPONSES: [&str; 10] =
+    ["disp", "deflection", "sag", "force", "stress", "vonmises", "reaction", "compliance", "buckling", "frequency"];
+
+/// The arguments of a response.
+fn words_or_expressions(cursor: &mut Cursor, case_first: bool) -> Parsed<Vec<Ast>> {
+    let mut list = Vec::new();
+    if cursor.accept(")") {
+        return Ok(list);
+    }
+    loop {
+        let case = if case_first && list.is_empty() { case(cursor) } else { None };
+        list.push(match case.or_else(|| word(cursor)) {
+            Some(word) => word,
+            None => cursor.nested(expression)?,
+        });
+        if cursor.accept(")") {
+            return Ok(list);
+        }
+        if !cursor.accept(",") {
+            return Err(cursor.unexpected("an operator, `,` or `)`"));
+        }
+    }
+}
+
+/// The name of a case or combination, as it stands: `ULS`, `1.35G+1.5Q`, or anything in quotes.
+fn case(cursor: &mut Cursor) -> Option<Ast> {
+    if matches!(cursor.peek(), Some(Kind::Text(_))) {
+        return None;
+    }
+    let (text, span) = cursor.raw_argument()?;
+    Some(Ast { kind: AstKind::Text(text.to_string()), span })
+}
+
+/// Text in quotes, or names and numbers joined by hyphens (`top-left`, `web-centre`) that end the argument.
+fn word(cursor: &mut Cursor) -> Option<Ast> {
+    let start = cursor.span().start;
+    if let Some(Kind::Text(text)) = cursor.peek() {
+        let text = text.to_string();
+        cursor.advance();
+        return Some(Ast { kind: AstKind::Text(text), span: cursor.since(start) });
+    }
+    let mut ahead = 0;
+    let mut parts: Vec<String> = Vec::new();
+    loop {
+        match cursor.ahead(ahead)? {
+            Kind::Name(name) if !name.contains('.') => parts.push(name.to_string()),
+            Kind::Number(number) if ahead > 0 => parts.push(number.to_string()),
+            _ => return None,
+        }
+        match cursor.ahead(ahead + 1)? {
+            Kind::Symbol("-") => ahead += 2,
+            Kind::Symbol("," | ")") if ahead > 0 => break,
+            _ => return None,
+        }
+    }
+    (0..=ahead).for_each(|_| cursor.advance());
+    Some(Ast { kind: AstKind::Text(parts.join("-")), span: cursor.since(start) })
 }
 
 /// The arguments up to and with the closing parenthesis.

@@ -8,6 +8,7 @@ mod chain;
 mod condition;
 mod cursor;
 mod expression;
+pub(crate) use expression::RESPONSES;
 mod requirement;
 #[cfg(test)]
 mod tests;

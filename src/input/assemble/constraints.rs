@@ -47,9 +47,22 @@ impl Assembly<'_> {
         };
         let Some(require) = &entry.require else { return };
         let place = self.spoken(entry.place);
-        for (name, left, right) in self.requirement(require, item_scope.as_ref(), &scope, &name) {
-            let (place, text) = (place.clone(), require.text.clone());
-            self.problem.constraints.push(Constraint { name, place, text, scope: scope.clone(), left, right });
+        let Some(spread) = self.spread(entry, require, item_scope.as_ref()) else { return };
+        for (choice, ribs) in spread {
+            let (items, scope) = match (&item_scope, &scope, ribs) {
+                (Some(_), Scope::Ribs(_), Some(ribs)) => {
+                    (Some(ItemScope::of(&self.problem, Collection::Ribs, ribs.clone())), Scope::Ribs(ribs))
+                }
+                _ => (item_scope.clone(), scope.clone()),
+            };
+            let detail: Box<str> = choice.detail.clone();
+            self.choice = choice;
+            let rows = self.requirement(require, items.as_ref(), &scope, &name);
+            self.choice = Default::default();
+            for (name, left, right) in rows {
+                let (place, text, detail) = (place.clone(), require.text.clone(), detail.clone());
+                self.problem.constraints.push(Constraint { name, detail, place, text, scope: scope.clone(), left, right });
+            }
         }
     }
 

@@ -10,6 +10,7 @@ mod outlines;
 mod overrides;
 mod profiles;
 mod requirement;
+mod spread;
 mod structure;
 mod tables;
 mod unused;
@@ -60,6 +61,8 @@ pub(super) struct Assembly<'a> {
     used: Vec<(Collection, u32)>,
     /// The structure, until it is whole.
     building: structure::Building,
+    /// The row that a constraint is being spread over.
+    choice: spread::Choice,
     /// What a table could not give.
     without: Without,
 }
@@ -104,9 +107,13 @@ pub(super) fn assemble(
     assembly.constraints(&declared.constraints);
     assembly.check_existence();
     assembly.say_unused();
+    assembly.say_unused_cases();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
     assembly.problem.units = std::mem::take(&mut declared.units);
     assembly.problem.settings = declared.settings.clone();
+    if assembly.findings.clean() {
+        assembly.problem.prepare();
+    }
     (assembly.problem, assembly.findings)
 }
 
@@ -140,6 +147,7 @@ impl<'a> Assembly<'a> {
             points: HashMap::new(),
             used: Vec::new(),
             building: structure::Building::default(),
+            choice: spread::Choice::default(),
             without: Without::default(),
         }
     }
@@ -168,6 +176,7 @@ impl<'a> Assembly<'a> {
             variables: &self.variables,
             definitions: &self.definitions,
             stage,
+            chosen: self.choice.chosen(),
         }
     }
 

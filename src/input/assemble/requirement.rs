@@ -1,8 +1,8 @@
 //! `require`: what a row's value is, and what it is held against.
 
 use super::Assembly;
-use crate::expression::ast::{Ast, Collection, Requirement};
-use crate::expression::operators::{Binary, Comparison};
+use crate::expression::ast::{Ast, AstKind, Collection, Requirement};
+use crate::expression::operators::{Binary, Comparison, Unary};
 use crate::expression::parse::parse_requirement;
 use crate::input::source::Written;
 use crate::problem::cells::{Use, uses};
@@ -50,7 +50,8 @@ impl Assembly<'_> {
             let value = self.resolved(written, items, Stage::All, |resolver| resolver.value(tree));
             values.push(value.filter(|_| grouped));
         }
-        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let mut values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        squared(&requirement, &mut values);
         let user = format!("constraint `{name}`");
         if !values.iter().flat_map(Value::formulas).all(|formula| self.cells_filled(formula, items, &user)) {
             return None;
@@ -182,6 +183,18 @@ impl Assembly<'_> {
             }
         }
         filled
+    }
+}
+
+/// `vonmises(…) <= f` is held as σ² + 3τ² ≤ f²: a polynomial, smooth where both stresses vanish.
+fn squared(requirement: &Requirement, values: &mut [Value]) {
+    let Requirement::Two { comparison: Comparison::LessOrEqual, left, .. } = requirement else { return };
+    let is_equivalent_stress = matches!(&left.kind, AstKind::Call(name, _) if name == "vonmises");
+    if let ([Value::Scalar(left), Value::Scalar(right)], true) = (values, is_equivalent_stress)
+        && let Formula::Unary(Unary::Sqrt, square) = left
+    {
+        *left = std::mem::take(square.as_mut());
+        *right = Formula::Binary(Binary::Multiply, Box::new(right.clone()), Box::new(right.clone()));
     }
 }
 

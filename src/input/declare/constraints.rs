@@ -13,6 +13,7 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
     let repeated = text("for");
     let (kind, filter, by) = (text("kind"), text("where"), text("by"));
     let only = fields.take("only").map(|field| field.texts(reader)).unwrap_or_default();
+    let cases = fields.take("cases").map(|field| field.texts(reader)).unwrap_or_default();
     let what = name.as_ref().map_or("a constraint".to_owned(), |name| format!("constraint `{}`", name.text));
     let require = fields.require("require", &what, reader).and_then(|field| field.text(reader));
     fields.finish(reader);
@@ -27,7 +28,7 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
     }
     // With a wrong `for` nothing is known of the names that hold.
     let require = require.filter(|_| !scoped || repeated.is_some());
-    ConstraintEntry { name, place, repeated, only, kind, filter, by, require }
+    ConstraintEntry { name, place, repeated, only, kind, filter, by, cases, require }
 }
 
 fn collection(written: &Written, reader: &mut Reader) -> Option<Collection> {

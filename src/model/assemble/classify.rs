@@ -25,6 +25,13 @@ pub struct Classification {
     pub not_convex: Option<String>,
 }
 
+impl Classification {
+    /// Nothing is proved.
+    pub fn nonlinear() -> Self {
+        Classification { class: Class::Nonlinear, logarithmic: None, not_geometric: None, not_convex: None }
+    }
+}
+
 /// Classifies the problem `model` was assembled from. Definitions and section properties are seen through.
 ///
 /// # Errors

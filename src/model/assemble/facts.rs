@@ -7,6 +7,7 @@ pub(super) struct Facts {
     definition_reaches: Vec<bool>,
     definition_constant: Vec<bool>,
     section_constant: Vec<bool>,
+    lengths_vary: bool,
 }
 
 impl Facts {
@@ -15,6 +16,8 @@ impl Facts {
             definition_reaches: vec![false; problem.definitions.len()],
             definition_constant: vec![true; problem.definitions.len()],
             section_constant: Vec::new(),
+            lengths_vary: (0..problem.ribs.names.len() as u32)
+                .any(|rib| problem.structure.as_deref().is_some_and(|structure| structure.moves(rib))),
         };
         // Definitions stand in any order and are free of cycles: at most as many rounds as definitions settle them.
         while facts.improve(problem) {}
@@ -56,7 +59,11 @@ impl Facts {
     /// True where no variable can stand inside.
     pub fn is_constant(&self, formula: &Formula) -> bool {
         match formula {
-            Formula::Constant(_) | Formula::OwnLength | Formula::OwnData(_) | Formula::EndData(..) => true,
+            Formula::OwnLength => !self.lengths_vary,
+            Formula::Constant(_)
+            | Formula::OwnData(_)
+            | Formula::OwnMaterial(_)
+            | Formula::EndData(..) => true,
             Formula::Definition(definition) => self.definition_constant[*definition as usize],
             Formula::SectionProperty(section, _) => {
                 self.section_constant.get(*section as usize).is_some_and(|constant| *constant)

@@ -31,13 +31,16 @@ impl Gathered {
             return false;
         }
         if let Item::Rib(rib) = item {
+            if problem.structure.as_deref().is_some_and(|structure| structure.moves(rib)) {
+                return false;
+            }
             let (from, to) = (end_section(problem, rib, End::From), end_section(problem, rib, End::To));
             self.shape.extend([problem.ribs.law[rib as usize] as u32, u32::from(from == to)]);
         }
         if !plan.sections(problem, item).into_iter().flatten().all(|section| self.section(problem, section)) {
             return false;
         }
-        for &number in &plan.numbers {
+        for number in &plan.numbers {
             if !self.is_taken(item, number) {
                 self.numbers.push(number.of(problem, item));
             }
@@ -121,9 +124,9 @@ impl Gathered {
     }
 
     /// Whether a number of the item has its slot already.
-    fn is_taken(&self, item: Item, number: OwnNumber) -> bool {
+    fn is_taken(&self, item: Item, number: &OwnNumber) -> bool {
         match (item, number) {
-            (Item::Section(section), OwnNumber::Data(column)) => self.taken.contains(&(section, column)),
+            (Item::Section(section), OwnNumber::Data(column)) => self.taken.contains(&(section, *column)),
             _ => false,
         }
     }

@@ -5,11 +5,13 @@ mod volumes;
 
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::member::{Framework, MemberNodes};
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
+use crate::problem::evaluate::Evaluation;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::Law;
@@ -99,23 +101,28 @@ pub(super) struct Lowering<'a> {
 }
 
 /// A number of the item itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) enum OwnNumber {
     Length,
     Data(u32),
     EndData(End, u32),
+    Material(Arc<str>),
 }
 
 impl OwnNumber {
     /// Its value for an item.
-    pub fn of(self, problem: &Problem, item: Item) -> f64 {
-        match (self, item) {
+    pub fn of(&self, problem: &Problem, item: Item) -> f64 {
+        match (self.clone(), item) {
             (OwnNumber::Length, Item::Rib(rib)) => problem.ribs.length[rib as usize],
             (OwnNumber::Data(column), Item::Rib(rib)) => cell(&problem.ribs.data, column, rib),
             (OwnNumber::Data(column), Item::Section(section)) => cell(&problem.sections.data, column, section),
             (OwnNumber::Data(column), Item::Node(node)) => cell(problem.columns(Collection::Nodes), column, node),
             (OwnNumber::EndData(end, column), Item::Rib(rib)) => {
                 cell(&problem.sections.data, column, end_section(problem, rib, end))
+            }
+            (OwnNumber::Material(name), Item::Rib(_)) => {
+                let item = super::profile::as_evaluated(item);
+                Evaluation::constants(problem).value(&Formula::OwnMaterial(name), item).unwrap_or(f64::NAN)
             }
             // The reader resolves own names only inside their scope.
             _ => f64::NAN,
@@ -153,11 +160,12 @@ impl<'a> Lowering<'a> {
 
     /// The data slot of a number of the item.
     pub fn own_number(&mut self, item: Item, which: OwnNumber) -> NodeId {
-        if let Some(&node) = self.own_numbers.get(&(item, which)) {
+        let key = (item, which);
+        if let Some(&node) = self.own_numbers.get(&key) {
             return node;
         }
-        let node = self.number(which.of(self.problem, item));
-        self.own_numbers.insert((item, which), node);
+        let node = self.number(key.1.of(self.problem, item));
+        self.own_numbers.insert(key, node);
         node
     }
 
@@ -299,6 +307,8 @@ impl<'a> Lowering<'a> {
         match (formula, context.item) {
             (Formula::OwnProperty(property), Item::Section(section)) => self.own_property(section, property),
             (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
+            (Formula::OwnMaterial(name), item) => self.own_number(item, OwnNumber::Material(Arc::clone(name))),
+            (Formula::OwnLength, Item::Rib(rib)) => self.rib_length(rib, true),
             (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),
             (Formula::EndData(end, column), item) => self.own_number(item, OwnNumber::EndData(*end, *column)),
             (Formula::OwnVolume, Item::Rib(rib)) => self.own_volume(rib, law_of(problem, rib, Total::Own)),

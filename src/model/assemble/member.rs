@@ -1,6 +1,6 @@
 //! What one member of a structure brings to a formula: its numbers, its loads in one case or combination, its inputs.
 
-use crate::expression::graph::{Graph, NodeId};
+use crate::expression::graph::NodeId;
 use crate::problem::statics::{Prepared, Statics};
 use crate::problem::structure::{Action, Axes, Member, Shear, Structure};
 use crate::problem::{Dimension, Problem};
@@ -219,9 +219,4 @@ pub(super) struct MemberNodes {
     pub rows: Option<crate::structure::deformation::Rows<NodeId>>,
     /// Member axes likewise.
     pub frame: Option<Frame<NodeId>>,
-}
-
-/// A zero that takes the place of a deformation nobody needs.
-pub(super) fn nothing(graph: &mut Graph) -> NodeId {
-    graph.constant(0.0)
 }

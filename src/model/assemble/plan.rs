@@ -1,6 +1,7 @@
 //! What a formula takes from its item, so that items of one shape can share one compiled template.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use super::lower::{Item, OwnNumber, end_section};
 use crate::problem::formula::{End, Formula, Subject, What};
@@ -70,12 +71,18 @@ impl Plan {
             Formula::EndProperty(End::To, _) => self.to = true,
             Formula::OwnLength => self.number(OwnNumber::Length),
             Formula::OwnData(column) => self.number(OwnNumber::Data(*column)),
+            Formula::OwnMaterial(name) => self.number(OwnNumber::Material(Arc::clone(name))),
             Formula::EndData(end, column) => self.number(OwnNumber::EndData(*end, *column)),
             Formula::OwnVolume => {
                 (self.from, self.to) = (true, true);
                 self.number(OwnNumber::Length);
             }
             Formula::Response(response) => match response.subject {
+                Subject::Own if matches!(response.what, What::Mass | What::Length) => {
+                    (self.from, self.to) = (true, true);
+                    self.number(OwnNumber::Material("density".into()));
+                    self.number(OwnNumber::Length);
+                }
                 Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_)) => {
                     (self.from, self.to) = (true, true);
                     if !self.sets.contains(&response.set) {
@@ -156,8 +163,8 @@ impl Plan {
         for section in self.sections(lowering.problem, item).into_iter().flatten() {
             lowering.own_section(section);
         }
-        for &number in &self.numbers {
-            lowering.own_number(item, number);
+        for number in &self.numbers {
+            lowering.own_number(item, number.clone());
         }
         if let Item::Rib(rib) = item {
             self.sets.iter().for_each(|&set| lowering.own_member(rib, set));

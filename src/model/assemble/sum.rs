@@ -47,7 +47,8 @@ impl Sink for Summation<'_> {
         let problem = self.problem;
         let ends = [End::From, End::To].map(|end| end_section(problem, rib, end) as usize);
         let form = problem.sections.form[ends[0]];
-        if ends[0] == ends[1] || form != problem.sections.form[ends[1]] {
+        let moves = problem.structure.as_deref().is_some_and(|structure| structure.moves(rib));
+        if moves || ends[0] == ends[1] || form != problem.sections.form[ends[1]] {
             return false;
         }
         let factors = sections::kind_of(form).part_factors(sections::form(form));

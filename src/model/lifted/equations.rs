@@ -22,7 +22,7 @@ pub(super) fn inner_problem(problem: &Problem, structure: &Structure, statics: &
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
             let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
             let (name, place, text) = ("force".into(), String::new(), String::new());
-            inner.constraints.push(Constraint { name, place, text, scope: Scope::Ribs(ribs), left, right });
+            inner.constraints.push(Constraint { name, detail: Box::default(), place, text, scope: Scope::Ribs(ribs), left, right });
         }
     }
     inner

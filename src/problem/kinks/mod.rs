@@ -42,7 +42,8 @@ impl Problem {
         let upward = restating.problem.sense == Sense::Minimize;
         let objective = std::mem::take(&mut restating.problem.objective);
         let place = Constraint {
-            name: "the objective".into(),
+            detail: Box::default(),
+name: "the objective".into(),
             place: "the objective".into(),
             text: restating.problem.objective_text.clone(),
             scope: Scope::Once,

@@ -54,7 +54,8 @@ impl Restating {
             items: vec![Item::None],
             may_add: true,
             place: Constraint {
-                name: String::new(),
+                detail: Box::default(),
+name: String::new(),
                 place: String::new(),
                 text: String::new(),
                 scope: Scope::Once,
@@ -418,7 +419,7 @@ impl Restating {
         let zero = Formula::Constant(0.0);
         let right = if upward { Limit::AtMost(zero) } else { Limit::AtLeast(zero) };
         let Constraint { place, text, .. } = &self.place;
-        Constraint { name: name.into(), place: place.clone(), text: text.clone(), scope: Scope::Once, left, right }
+        Constraint { name: name.into(), detail: Box::default(), place: place.clone(), text: text.clone(), scope: Scope::Once, left, right }
     }
 
     fn add_variable(&mut self, name: &str, lower: f64, upper: f64) -> Formula {

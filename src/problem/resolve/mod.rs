@@ -4,6 +4,7 @@ mod condition;
 mod name;
 mod over;
 mod profile;
+pub mod response;
 mod scope;
 
 use super::evaluate::{Evaluation, Item};
@@ -14,6 +15,7 @@ use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
 
 pub use condition::Filter;
+pub use response::{Chosen, Open};
 pub use scope::ItemScope;
 
 /// One number's formula, or an array of them.
@@ -42,6 +44,8 @@ pub struct Report {
     pub mistakes: Vec<Remark>,
     /// Item names that hide a global one, and choices made at the start.
     pub warnings: Vec<Remark>,
+    /// What responses left open.
+    pub open: Open,
     /// Data columns that occur.
     pub used: Vec<(Collection, u32)>,
 }
@@ -72,6 +76,8 @@ pub struct World<'a> {
     pub definitions: &'a [Option<Value>],
     /// Which of these may occur.
     pub stage: Stage,
+    /// The row a constraint is being spread over.
+    pub chosen: Chosen<'a>,
 }
 
 /// Resolves expressions in one scope.
@@ -126,6 +132,9 @@ impl<'a, 'r> Resolver<'a, 'r> {
             }
             AstKind::Over { fold, collection, filter, body } => {
                 self.over(*fold, *collection, filter.as_deref(), body, ast.span).map(Value::Scalar)
+            }
+            AstKind::Call(name, arguments) if crate::expression::parse::RESPONSES.contains(&name.as_str()) => {
+                self.response(name, arguments, ast.span)
             }
             AstKind::Call(name, arguments) if name == "profile" => self.profile(arguments, ast.span).map(Value::Scalar),
             AstKind::Call(name, arguments) => self.call(name, arguments, ast.span),

@@ -7,7 +7,7 @@ use super::{Resolver, Stage, Value};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection};
 use crate::problem::evaluate::number;
-use crate::problem::formula::{End, Total};
+use crate::problem::formula::{End, Response, Subject, Total, What};
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Cells, Column, Dimension, Formula, Property};
@@ -89,6 +89,8 @@ impl<'a> Resolver<'a, '_> {
         let found = match (scope.collection, parts) {
             (Collection::Ribs, ["from" | "to", _]) if self.elements(parts).is_some() => return None,
             (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
+            (Collection::Ribs, [word @ "material", name]) => return self.material(word, name, span),
+            (Collection::Ribs, [name @ ("mass" | "weight")]) if self.is_free(name) => return Some(self.mass(name, span)),
             (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),
             (Collection::Ribs, ["volume"]) => Some(Formula::OwnVolume),
             (Collection::Sections, [name]) if scope.offers(name) => Some(Formula::OwnProperty(property(name))),
@@ -167,9 +169,23 @@ impl<'a> Resolver<'a, '_> {
             None => match total(name) {
                 _ if name == "pi" => Some(Value::Scalar(Formula::Constant(PI))),
                 Some(total) if self.world.stage == Stage::All => self.volume(total, span).map(Value::Scalar),
+                _ if self.world.stage == Stage::All && matches!(name, "mass" | "weight") && self.is_free(name) => {
+                    self.mass(name, span).map(Value::Scalar)
+                }
                 _ => self.unknown(name, span),
             },
         }
+    }
+
+    fn moves(&self, rib: u32) -> bool {
+        self.world.problem.structure.as_deref().is_some_and(|structure| structure.moves(rib))
+    }
+
+    /// Whether a word of structures is one here: there is a structure, and nothing else has this name.
+    fn is_free(&self, name: &str) -> bool {
+        self.world.problem.structure.is_some()
+            && self.world.names.find(self.world.problem, name).is_none()
+            && self.scope.is_none_or(|scope| !self.columns(scope.collection).iter().any(|column| column.name == name))
     }
 
     /// The mistake of what does not follow from parameters and variables alone.
@@ -283,6 +299,9 @@ impl<'a> Resolver<'a, '_> {
 
     fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
         match name {
+            "length" if self.moves(r) => {
+                Some(Formula::Response(Arc::new(Response { set: 0, subject: Subject::Rib(r), what: What::Length })))
+            }
             "length" => self.world.problem.ribs.length.get(r as usize).map(|&length| Formula::Constant(length)),
             "volume" => Some(Formula::RibVolume(r)),
             _ => match self.cell(Collection::Ribs, r, name, span) {

@@ -55,4 +55,27 @@ impl Tapered<'_> {
     pub fn property(&self, graph: &mut Graph, x: f64, name: &str) -> NodeId {
         self.offered(graph, x, name).unwrap_or_else(|| graph.constant(f64::NAN))
     }
+
+    /// c0, c1, c2 of A(ξ) = c0 + c1·ξ + c2·ξ² through the areas at both ends and in the middle: exact for areas that are products
+    /// of two dimensions.
+    pub fn area_coefficients(&self, graph: &mut Graph) -> Vec<NodeId> {
+        let start = self.property(graph, 0.0, "A");
+        if self.is_prismatic() {
+            return vec![start];
+        }
+        let (middle, end) = (self.property(graph, 0.5, "A"), self.property(graph, 1.0, "A"));
+        let mut combined = |factors: [f64; 3]| {
+            let parts = [(factors[0], start), (factors[1], middle), (factors[2], end)].map(|(factor, area)| graph.scale(factor, area));
+            graph.sum(&parts)
+        };
+        let (linear, quadratic) = (combined([-3.0, 4.0, -1.0]), combined([2.0, -4.0, 2.0]));
+        vec![start, linear, quadratic]
+    }
+
+    /// ∫A dξ.
+    pub fn mean_area(&self, graph: &mut Graph) -> NodeId {
+        let coefficients = self.area_coefficients(graph).into_iter().enumerate();
+        let parts: Vec<NodeId> = coefficients.map(|(power, area)| graph.scale(1.0 / (power as f64 + 1.0), area)).collect();
+        graph.sum(&parts)
+    }
 }

@@ -4,6 +4,7 @@
 //! combinations; in the end, when starts of variables are known, places and lengths.
 
 mod cases;
+mod early;
 mod lengths;
 mod loads;
 mod materials;
@@ -73,6 +74,7 @@ struct Held {
 impl Assembly<'_> {
     /// What members need: settings, materials, nodes.
     pub(super) fn structure_before_ribs(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
+        self.early_definitions(declared);
         self.structure_settings(&declared.structure);
         self.materials(&declared.structure);
         self.nodes(declared, tables);

@@ -1,6 +1,6 @@
 //! Graphs of what a structure does.
 
-use super::{Context, Item, Lowering, end_section};
+use super::{Context, Item, Lowering, OwnNumber, end_section};
 use crate::expression::graph::NodeId;
 use crate::model::assemble::member::{Framework, MemberNodes, loads};
 use crate::model::lifted::nodal_load;
@@ -18,20 +18,23 @@ impl Lowering<'_> {
         let nothing = |lowering: &mut Self| lowering.graph.constant(f64::NAN);
         let Some(framework) = Framework::of(self.problem) else { return nothing(self) };
         let node = match (response.subject, context.item) {
-            (Subject::Node(node), _) => Some(node),
+            (Subject::Node(node), _) | (Subject::Own, Item::Node(node)) => Some(node),
             _ => None,
         };
         let rib = match (response.subject, context.item) {
             (Subject::Rib(rib), _) | (Subject::Own, Item::Rib(rib)) => Some(rib),
             _ => None,
         };
+        if let (What::Length, Some(rib)) = (&response.what, rib) {
+            return self.rib_length(rib, response.subject == Subject::Own);
+        }
         match (&response.what, node, rib.and_then(|rib| framework.structure.member(rib))) {
             (What::Displacement(direction), Some(node), _) => {
                 self.variable(framework.displacement(response.set, node, usize::from(*direction)))
             }
             (What::Reaction(direction), Some(node), _) => self.reaction(framework, response.set, node, usize::from(*direction)),
             (What::Compliance, ..) => self.compliance(framework, response.set),
-            (What::Mass, _, Some(member)) => self.mass(framework, member),
+            (What::Mass, _, Some(member)) => self.mass(framework, member, response.subject == Subject::Own),
             (what, _, Some(member)) => self.of_member(framework, member, response.set, what),
             _ => nothing(self),
         }
@@ -66,15 +69,7 @@ impl Lowering<'_> {
     /// A member whose nodes or modulus vary with the design: everything as formulas of them and of its ends' displacements.
     fn varying_member(&mut self, framework: Framework, member: u32, set: u32) -> MemberNodes {
         let (declared, prepared) = framework.member(member);
-        let ends = [declared.start, declared.end]
-            .map(|node| framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate)));
-        let arm = declared.offset;
-        let between: [NodeId; 3] = std::array::from_fn(|axis| {
-            let chord = self.graph.subtract(ends[1][axis], ends[0][axis]);
-            let arms = self.graph.constant(arm[1][axis] - arm[0][axis]);
-            self.graph.add(chord, arms)
-        });
-        let frame = frame(&mut self.graph, between, prepared.rule, declared.roll);
+        let frame = self.varying_frame(framework, member);
         let material = &framework.structure.materials[declared.material as usize];
         let young = self.dimension(u32::MAX, material.young);
         let shear = material.shear.map(|shear| match shear {
@@ -82,7 +77,7 @@ impl Lowering<'_> {
             Shear::Poisson(ratio) => self.graph.scale(0.5 / (1.0 + ratio), young),
         });
         let loads = loads(&mut self.graph, framework, member, set, &frame);
-        let rows = rows(&mut self.graph, &frame, arm);
+        let rows = rows(&mut self.graph, &frame, declared.offset);
         let deformations = match prepared.fixed {
             true => framework.inputs(member, set).map(|input| match input {
                 Some(input) => self.variable(input),
@@ -94,6 +89,32 @@ impl Lowering<'_> {
             }),
         };
         MemberNodes { length: frame.length, young, shear, loads, deformations, rows: Some(rows), frame: Some(frame) }
+    }
+
+    /// Length and axes of a member as formulas of its nodes' coordinates.
+    fn varying_frame(&mut self, framework: Framework, member: u32) -> Frame<NodeId> {
+        let (declared, prepared) = framework.member(member);
+        let ends = [declared.start, declared.end].map(|node| {
+            framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate))
+        });
+        let between: [NodeId; 3] = std::array::from_fn(|axis| {
+            let chord = self.graph.subtract(ends[1][axis], ends[0][axis]);
+            let arms = self.graph.constant(declared.offset[1][axis] - declared.offset[0][axis]);
+            self.graph.add(chord, arms)
+        });
+        frame(&mut self.graph, between, prepared.rule, declared.roll)
+    }
+
+    /// A rib's length: a number of the item or a constant, or a formula where its nodes move with the design.
+    pub(super) fn rib_length(&mut self, rib: u32, own: bool) -> NodeId {
+        let varying = Framework::of(self.problem)
+            .and_then(|framework| Some((framework, framework.structure.member(rib)?)))
+            .filter(|(framework, member)| !framework.member(*member).1.fixed);
+        match varying {
+            Some((framework, member)) => self.varying_frame(framework, member).length,
+            None if own => self.own_number(Item::Rib(rib), OwnNumber::Length),
+            None => self.graph.constant(self.problem.ribs.length[rib as usize]),
+        }
     }
 
     /// Σ row·u over the twelve displacements of a member's ends.
@@ -244,13 +265,24 @@ impl Lowering<'_> {
     }
 
     /// Density times ∫A dx.
-    fn mass(&mut self, framework: Framework, member: u32) -> NodeId {
+    fn mass(&mut self, framework: Framework, member: u32, own: bool) -> NodeId {
         let (declared, _) = framework.member(member);
-        let density = framework.structure.materials[declared.material as usize].density.unwrap_or(f64::NAN);
-        self.with_beam(framework, member, 0, |graph, beam| {
-            let volume = beam.volume(graph);
-            graph.scale(density, volume)
-        })
+        let item = Item::Rib(declared.rib);
+        let density = match own {
+            true => self.own_number(item, OwnNumber::Material("density".into())),
+            false => {
+                let density = framework.structure.materials[declared.material as usize].density;
+                self.graph.constant(density.unwrap_or(f64::NAN))
+            }
+        };
+        let length = self.rib_length(declared.rib, own);
+        let sections = [End::From, End::To].map(|end| end_section(self.problem, declared.rib, end));
+        let [start, end] = sections.map(|section| if own { self.own_section(section) } else { self.named_section(section) });
+        let form = sections::form(self.problem.sections.form[sections[0] as usize]);
+        let tapered = Tapered { form, outline: self.problem.outline(sections[0]), start: &start, end: &end };
+        let mean = tapered.mean_area(&mut self.graph);
+        let volume = self.graph.multiply(length, mean);
+        self.graph.multiply(density, volume)
     }
 }
 
@@ -270,3 +302,4 @@ pub(in crate::model) fn support_rows<A: Algebra>(
         along(algebra, 1, e3, offset[1]),
     ]
 }
+

@@ -1,6 +1,6 @@
 //! Graphs of what sections and ribs offer: properties, areas of parts, volumes.
 
-use super::{Item, Lowering, OwnNumber};
+use super::Lowering;
 use crate::expression::graph::NodeId;
 use crate::geometry::polygon::Ring;
 use crate::problem::Property;
@@ -31,7 +31,7 @@ impl Lowering<'_> {
     pub fn own_volume(&mut self, rib: u32, law: Law) -> NodeId {
         let left = self.own_section(self.problem.ribs.from[rib as usize]);
         let right = self.own_section(self.problem.ribs.to[rib as usize]);
-        let length = self.own_number(Item::Rib(rib), OwnNumber::Length);
+        let length = self.rib_length(rib, true);
         self.volume_between(rib, law, &left, &right, length)
     }
 
@@ -39,7 +39,7 @@ impl Lowering<'_> {
     pub(super) fn rib_volume(&mut self, rib: u32, law: Law) -> NodeId {
         let left = self.named_section(self.problem.ribs.from[rib as usize]);
         let right = self.named_section(self.problem.ribs.to[rib as usize]);
-        let length = self.graph.constant(self.problem.ribs.length[rib as usize]);
+        let length = self.rib_length(rib, false);
         self.volume_between(rib, law, &left, &right, length)
     }
 

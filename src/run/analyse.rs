@@ -1,0 +1,101 @@
+//! `analyse`: what the structure does at a point; nothing is optimised.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{RunError, Subject};
+use crate::model::{Assembled, EvaluationError, assemble_any};
+use crate::problem::structure::DIRECTIONS;
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::report::answer::EarlierAnswer;
+
+/// What was found.
+#[derive(Debug, Default)]
+pub struct Analysis {
+    /// Definitions and their values.
+    pub definitions: Vec<(String, f64)>,
+    /// Their derivatives, one list per definition in the order of the variables; where they were asked for.
+    pub gradient: Vec<Vec<f64>>,
+    /// Names of the variables.
+    pub variables: Vec<String>,
+}
+
+/// Why there is none.
+#[derive(Debug, thiserror::Error)]
+pub enum AnalysisError {
+    /// The file, the answer or the command.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A motion meets no resistance.
+    #[error("the structure is a mechanism: {0}")]
+    Mechanism(String),
+    /// There is no value.
+    #[error("{0}")]
+    Value(#[from] EvaluationError),
+}
+
+/// Analyses the structure at an answer, or at the start.
+///
+/// # Errors
+/// An answer that cannot be read, a mechanism, a value that does not exist.
+pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Result<Analysis, AnalysisError> {
+    let x = match answer {
+        Some(path) => EarlierAnswer::read(path).map_err(RunError::from)?.point(subject.shown()).map_err(RunError::from)?,
+        None => subject.shown().meta().start.clone(),
+    };
+    let problem = subject.problem();
+    let assembled = of_definitions(problem).map_err(|error| RunError::Choice(error.to_string()))?;
+    refuse_mechanism(&assembled, &x)?;
+    let model = assembled.model();
+    let mut values = vec![0.0; model.meta().rows()];
+    model.constraints(&x, &mut values)?;
+    let definitions = problem.definitions.iter().zip(values).map(|((name, _), value)| (name.clone(), value)).collect();
+    let mut analysis = Analysis { definitions, ..Analysis::default() };
+    if gradient {
+        let pattern = &model.meta().jacobian;
+        let mut jacobian = vec![0.0; pattern.len()];
+        model.jacobian(&x, &mut jacobian)?;
+        analysis.gradient = vec![vec![0.0; x.len()]; pattern.rows()];
+        for (at, (row, column)) in pattern.iter().enumerate() {
+            analysis.gradient[row][column] = jacobian[at];
+        }
+        analysis.variables = (0..x.len()).map(|j| model.variable_name(j)).collect();
+    }
+    Ok(analysis)
+}
+
+/// The problem with one row per definition.
+fn of_definitions(problem: &Problem) -> Result<Assembled, crate::model::AssemblyError> {
+    let row = |at: usize| Constraint {
+        name: problem.definitions[at].0.clone(),
+        detail: Box::default(),
+        place: String::new(),
+        text: String::new(),
+        scope: Scope::Once,
+        left: Formula::Definition(at as u32),
+        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
+    };
+    let constraints = (0..problem.definitions.len()).map(row).collect();
+    let objective = Formula::default();
+    assemble_any(&Arc::new(Problem { constraints, objective, ..problem.clone() }))
+}
+
+/// A structure that can move without resistance, in words.
+fn refuse_mechanism(assembled: &Assembled, x: &[f64]) -> Result<(), AnalysisError> {
+    let Assembled::Structure(reduced) = assembled else { return Ok(()) };
+    let Some(mechanism) = reduced.mechanism(x)? else { return Ok(()) };
+    let lifted = reduced.lifted();
+    let Some(structure) = lifted.problem().structure.as_deref() else { return Ok(()) };
+    let moving = mechanism.motion.iter().enumerate().filter(|(_, motion)| motion.abs() > 0.3).take(6);
+    let words: Vec<String> = moving
+        .map(|(state, _)| {
+            let (node, direction) = lifted.direction(state);
+            let name = &structure.nodes.names[node as usize];
+            match direction {
+                0..3 => format!("node {name} can move in {}", DIRECTIONS[direction]),
+                _ => format!("node {name} can rotate about {}", &DIRECTIONS[direction][1..]),
+            }
+        })
+        .collect();
+    Err(AnalysisError::Mechanism(words.join("; ")))
+}
