@@ -52,6 +52,8 @@ pub(super) struct Building {
     lines: Option<std::collections::BTreeMap<Box<str>, Vec<u32>>>,
     /// Whether nodes are missing because a table could not be read.
     incomplete: bool,
+    /// Whether `plane` is none: how many coordinates there are is not known.
+    plane_unknown: bool,
     /// Whether supports are missing for that reason.
     unsupported: bool,
 }
