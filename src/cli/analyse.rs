@@ -1,11 +1,12 @@
 //! `ribopt analyse`
 
+mod show;
+
 use super::arguments::Analyse;
 use super::failure::Failure;
 use super::{output, reading};
-use ribopt::report::number::short;
 use ribopt::run::RunError;
-use ribopt::run::analyse::{Analysis, AnalysisError, analyse};
+use ribopt::run::analyse::{AnalysisError, analyse};
 
 /// The exit code where the structure cannot be analysed.
 const NOT_ANALYSED: u8 = 6;
@@ -26,27 +27,7 @@ pub fn run(arguments: &Analyse) -> Result<u8, Failure> {
             return Ok(NOT_ANALYSED);
         }
     };
-    output::print(|out| if arguments.json { json(&analysis, out) } else { text(&analysis, out) })?;
+    let problem = subject.problem();
+    output::print(|out| if arguments.json { show::json(&analysis, problem, out) } else { show::text(&analysis, problem, out) })?;
     Ok(0)
-}
-
-fn json(analysis: &Analysis, out: &mut dyn std::io::Write) -> std::io::Result<()> {
-    use serde_json::{Map, Value, json};
-    let number = |value: f64| json!(value);
-    let definitions: Map<String, Value> = analysis.definitions.iter().map(|(name, value)| (name.clone(), number(*value))).collect();
-    let mut whole = json!({ "definitions": definitions });
-    if !analysis.gradient.is_empty() {
-        let of = |row: &Vec<f64>| -> Map<String, Value> {
-            analysis.variables.iter().cloned().zip(row.iter().map(|&value| number(value))).collect()
-        };
-        let gradient: Map<String, Value> =
-            analysis.definitions.iter().zip(&analysis.gradient).map(|((name, _), row)| (name.clone(), of(row).into())).collect();
-        whole["gradient"] = gradient.into();
-    }
-    serde_json::to_writer_pretty(&mut *out, &whole)?;
-    writeln!(out)
-}
-
-fn text(analysis: &Analysis, out: &mut dyn std::io::Write) -> std::io::Result<()> {
-    analysis.definitions.iter().try_for_each(|(name, value)| writeln!(out, "{name}: {}", short(*value)))
 }

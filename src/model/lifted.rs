@@ -7,7 +7,7 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::mapped::{Mapped, Maps, Rows};
+use super::views::mapped::{Mapped, Maps, Rows};
 use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};

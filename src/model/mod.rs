@@ -5,29 +5,19 @@
 
 mod assemble;
 mod assembled;
-pub mod augmented;
 mod auxiliaries;
-pub mod bounds_only;
+mod chunked_evaluation;
 pub mod class;
 pub mod components;
 pub mod derivative_check;
-pub mod differences;
 pub mod domain;
-pub mod elastic;
 mod elements;
 pub mod evaluator;
-pub mod freed;
 pub mod lifted;
-pub mod logarithmic;
-pub mod mapped;
-pub mod reduced;
-pub mod structural;
-pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
-pub mod scaled;
-mod stretches;
-pub mod substitution;
+pub mod structural;
+pub mod views;
 
 use thiserror::Error;
 
@@ -36,14 +26,11 @@ pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;
-pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
 pub use lifted::{Lifted, States};
-pub use reduced::Reduced;
 pub use structural::{Assembled, WithDisplacements, assemble_any};
-pub use freed::{Freed, Limit};
-pub use rebounded::Rebounded;
-pub use substitution::Substitution;
+pub use views::reduced::Reduced;
+pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};
 
 /// What is known of a model before any evaluation.
 #[derive(Debug, Clone, Default)]

@@ -149,14 +149,23 @@ pub enum Formula {
 }
 
 impl Formula {
-    /// Whether a response other than a mass stands inside (definitions aside).
-    pub fn analyses(&self) -> bool {
+    /// Whether a response that needs an analysis stands inside, seen through definitions; `known` keeps what was found of these.
+    pub(super) fn analyses(&self, problem: &super::Problem, known: &mut [Option<bool>]) -> bool {
         match self {
             Formula::Response(response) => !matches!(response.what, What::Mass | What::Length),
-            Formula::Unary(_, inner) | Formula::Profile(_, inner) => inner.analyses(),
-            Formula::Binary(_, left, right) => left.analyses() || right.analyses(),
-            Formula::Fold(_, list) => list.iter().any(Formula::analyses),
-            Formula::Over { body, .. } => body.analyses(),
+            Formula::Definition(definition) => {
+                let at = *definition as usize;
+                if let Some(known) = known[at] {
+                    return known;
+                }
+                let found = problem.definitions[at].1.analyses(problem, known);
+                known[at] = Some(found);
+                found
+            }
+            Formula::Unary(_, inner) | Formula::Profile(_, inner) => inner.analyses(problem, known),
+            Formula::Binary(_, left, right) => left.analyses(problem, known) || right.analyses(problem, known),
+            Formula::Fold(_, list) => list.iter().any(|one| one.analyses(problem, known)),
+            Formula::Over { body, .. } => body.analyses(problem, known),
             _ => false,
         }
     }

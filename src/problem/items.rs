@@ -96,7 +96,7 @@ mod tests {
         let problem = Problem { definitions: vec![("depth".into(), depth)], ..Problem::default() };
         let constraint = Constraint {
             detail: Box::default(),
-name: "c".into(),
+            name: "c".into(),
             place: String::new(),
             text: String::new(),
             scope: Scope::Ribs(vec![5, 7]),

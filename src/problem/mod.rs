@@ -8,6 +8,7 @@ mod collections;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
+pub mod glob;
 mod instance;
 pub mod items;
 pub mod kinks;
@@ -15,7 +16,6 @@ pub mod mentions;
 pub mod names;
 pub(crate) mod nearest;
 pub mod order;
-pub mod pattern;
 pub mod precheck;
 pub mod profile;
 mod range;
@@ -101,11 +101,12 @@ impl Problem {
         self.statics = statics::Statics::of(self).map(Arc::new);
     }
 
-    /// Whether the objective, a row or a definition asks what the structure does.
+    /// Whether the objective or a row asks what the structure does.
     pub fn analyses(&self) -> bool {
-        let rows = self.constraints.iter().flat_map(|constraint| [&constraint.left].into_iter().chain(constraint.right.formulas()));
-        let definitions = self.definitions.iter().map(|(_, formula)| formula);
-        self.statics.is_some() && rows.chain(definitions).chain([&self.objective]).any(Formula::analyses)
+        let rows =
+            self.constraints.iter().flat_map(|constraint| [&constraint.left].into_iter().chain(constraint.right.formulas()));
+        let mut known = vec![None; self.definitions.len()];
+        self.statics.is_some() && rows.chain([&self.objective]).any(|formula| formula.analyses(self, &mut known))
     }
 
     /// The name of scalar variable `j`: `depth`, `x[2]`, `support.b`.

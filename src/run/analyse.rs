@@ -1,5 +1,7 @@
 //! `analyse`: what the structure does at a point; nothing is optimised.
 
+mod responses;
+
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,6 +10,8 @@ use crate::model::{Assembled, EvaluationError, assemble_any};
 use crate::problem::structure::DIRECTIONS;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
+use responses::responses;
+pub use responses::{CaseResponses, Extreme, ResponsesError};
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -18,6 +22,10 @@ pub struct Analysis {
     pub gradient: Vec<Vec<f64>>,
     /// Names of the variables.
     pub variables: Vec<String>,
+    /// What the structure does, by case and combination.
+    pub cases: Vec<CaseResponses>,
+    /// The largest residual of an equilibrium equation over the largest sum of its terms.
+    pub equilibrium_residual: f64,
 }
 
 /// Why there is none.
@@ -32,6 +40,9 @@ pub enum AnalysisError {
     /// There is no value.
     #[error("{0}")]
     Value(#[from] EvaluationError),
+    /// Of some response.
+    #[error(transparent)]
+    Responses(#[from] ResponsesError),
 }
 
 /// Analyses the structure at an answer, or at the start.
@@ -60,6 +71,10 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
             analysis.gradient[row][column] = jacobian[at];
         }
         analysis.variables = (0..x.len()).map(|j| model.variable_name(j)).collect();
+    }
+    analysis.cases = responses(problem, &x)?;
+    if let Assembled::Structure(reduced) = &assembled {
+        analysis.equilibrium_residual = reduced.residual(&x)?;
     }
     Ok(analysis)
 }

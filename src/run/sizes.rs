@@ -7,7 +7,7 @@ use super::Subject;
 use super::results::Writer;
 use super::solve::MOST_LISTED;
 use crate::expression::ast::Collection;
-use crate::model::{EvaluationError, Model, assemble};
+use crate::model::{EvaluationError, assemble_any};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::{Constraint, Dimension, Formula, Limit, Problem, Scope};
 use crate::report::cross_section::CrossSection;
@@ -98,7 +98,7 @@ pub(super) fn rib_volumes(
     }
     restated.constraints = vec![Constraint {
         detail: Box::default(),
-name: "volume".into(),
+        name: "volume".into(),
         place: String::new(),
         text: String::new(),
         scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),
@@ -107,7 +107,8 @@ name: "volume".into(),
     }];
     let too_dense =
         |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "volume".into(), cause: error.to_string() };
-    let model = assemble(&Arc::new(restated)).map_err(too_dense)?;
+    let assembled = assemble_any(&Arc::new(restated)).map_err(too_dense)?;
+    let model = assembled.model();
     let mut volumes = vec![0.0; model.meta().rows()];
     model.constraints(x, &mut volumes)?;
     Ok(volumes)

@@ -6,11 +6,10 @@ use std::sync::Arc;
 use super::RunError;
 use crate::files::Inputs;
 use crate::input::{self, Progress};
-use crate::model::differences::Differences;
+use crate::model::views::flange_substitution::FlangeSubstitution;
 use crate::model::{
-    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements, assemble,
-    assemble_any, classify,
-    volumes,
+    Assembled, AssemblyError, Class, Classification, Lifted, Model, Reduced, RibModel, Substitution, WithDisplacements,
+    assemble_any, classify, volumes,
 };
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -104,7 +103,9 @@ impl Subject {
             (_, Assembled::Ribs(model)) if is_dust(model) => None,
             (Some(logarithmic), _) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
             (None, Assembled::Ribs(model)) => differences(&problem, model),
-            (None, Assembled::Structure(model)) => Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>),
+            (None, Assembled::Structure(model)) => {
+                Some(Box::new(WithDisplacements::of(Arc::clone(model))) as Box<dyn Substitution + Send>)
+            }
         };
         Ok(Subject {
             class,
@@ -177,7 +178,8 @@ impl Subject {
         let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
         let objective = Formula::default();
         let problem = Problem { constraints: rows.into(), objective, ..self.problem().clone() };
-        let model = assemble(&Arc::new(problem)).ok()?;
+        let assembled = assemble_any(&Arc::new(problem)).ok()?;
+        let model = assembled.model();
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;
         Some(totals)
@@ -192,14 +194,22 @@ fn is_dust(model: &RibModel) -> bool {
 
 /// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.
 fn differences(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Substitution + Send>> {
-    let pairs = Differences::pairs(problem);
-    (!pairs.is_empty()).then(|| Box::new(Differences::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
+    let pairs = FlangeSubstitution::pairs(problem);
+    (!pairs.is_empty()).then(|| Box::new(FlangeSubstitution::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
 }
 
 /// A row whose value is a total volume.
 fn volume_row(total: Total) -> Constraint {
     let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
-    Constraint { name: String::new(), detail: Box::default(), place: String::new(), text: String::new(), scope: Scope::Once, left, right }
+    Constraint {
+        name: String::new(),
+        detail: Box::default(),
+        place: String::new(),
+        text: String::new(),
+        scope: Scope::Once,
+        left,
+        right,
+    }
 }
 
 /// A mistake of the reader as reports show it.

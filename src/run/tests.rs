@@ -24,7 +24,7 @@ fn rib() -> Problem {
     let dimension = |section, position| Origin::Dimension(section, position);
     let stiff = Constraint {
         detail: Box::default(),
-name: "stiff".into(),
+        name: "stiff".into(),
         place: "rib.toml:9".into(),
         text: "left.Ix >= 1e-4".into(),
         scope: Scope::Once,

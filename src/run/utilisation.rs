@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::Subject;
 use crate::expression::ast::Collection;
 use crate::expression::operators::Binary;
-use crate::model::{EvaluationError, Model, assemble};
+use crate::model::{EvaluationError, assemble_any};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 pub use crate::report::utilisation::Table;
 use crate::report::utilisation::{Declared, Loaded, Use};
@@ -199,7 +199,8 @@ fn both_sides(problem: &Problem, x: &[f64]) -> Result<Vec<f64>, EvaluationError>
     let restated = Problem { constraints, objective: Formula::default(), ..problem.clone() };
     let too_dense =
         |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "utilisation".into(), cause: error.to_string() };
-    let model = assemble(&Arc::new(restated)).map_err(too_dense)?;
+    let assembled = assemble_any(&Arc::new(restated)).map_err(too_dense)?;
+    let model = assembled.model();
     let mut values = vec![0.0; model.meta().rows()];
     model.constraints(x, &mut values)?;
     Ok(values)

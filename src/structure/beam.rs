@@ -198,8 +198,7 @@ impl Beam<'_> {
     /// σ = N/A − My·Y/Ix − Mz·X/Iy at a point of the section.
     pub fn stress(&self, graph: &mut Graph, x: f64, point: &str) -> NodeId {
         let Some(fibre) = self.fibre(graph, x, point) else { return graph.constant(f64::NAN) };
-        let (force, area) = (self.force(graph, Force::N, x), self.section.property(graph, x, "A"));
-        let mut parts = vec![Algebra::divide(graph, force, area)];
+        let mut parts = vec![self.axial_stress(graph, x)];
         let planes = [(Force::My, fibre.y, "Ix", [3, 4]), (Force::Mz, fibre.x, "Iy", [1, 2])];
         for (moment, distance, inertia, components) in planes {
             if components.iter().any(|&component| self.components[component]) && graph.as_constant(distance) != Some(0.0) {
@@ -208,6 +207,33 @@ impl Beam<'_> {
                 let share = Algebra::divide(graph, share, inertia);
                 parts.push(graph.scale(-1.0, share));
             }
+        }
+        graph.sum(&parts)
+    }
+
+    /// N/A. Of a prismatic member it is E·(e_N/L − strain) and what its loads add: the area cancels, and a bar's stress is linear in the
+    /// displacements.
+    fn axial_stress(&self, graph: &mut Graph, x: f64) -> NodeId {
+        let area = self.section.property(graph, x, "A");
+        if !self.section.is_prismatic() || !self.components[0] {
+            let force = self.force(graph, Force::N, x);
+            return Algebra::divide(graph, force, area);
+        }
+        let mut strain = graph.divide(self.deformations[0], self.length);
+        if let Some(free) = self.loads.strain {
+            strain = graph.subtract(strain, free);
+        }
+        let mut parts = vec![graph.multiply(self.young, strain)];
+        let terms: Vec<Term<NodeId>> = self.terms(graph).into_iter().filter(|term| term.way == Way::Axial).collect();
+        let points = self.quadrature(&terms, None);
+        let mut loads: Vec<NodeId> = self.loads.pretension.into_iter().collect();
+        for term in &terms {
+            let mean: f64 = points.iter().map(|&(at, weight)| weight * term.spread.axial(at)).sum();
+            loads.push(graph.scale(term.spread.axial(x) - mean, term.value));
+        }
+        if !loads.is_empty() {
+            let loads = graph.sum(&loads);
+            parts.push(Algebra::divide(graph, loads, area));
         }
         graph.sum(&parts)
     }

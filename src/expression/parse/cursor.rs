@@ -95,7 +95,8 @@ impl<'a> Cursor<'a> {
             }
             at += 1;
         }
-        let (first, last) = (self.tokens.get(self.at)?.span, self.tokens[at.checked_sub(1).filter(|&last| last >= self.at)?].span);
+        let (first, last) =
+            (self.tokens.get(self.at)?.span, self.tokens[at.checked_sub(1).filter(|&last| last >= self.at)?].span);
         self.at = at;
         let span = Span { start: first.start, end: last.end };
         Some((&self.text[span.start..span.end], span))

@@ -112,7 +112,8 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
     if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
         return over(cursor, fold, collection);
     }
-    let arguments = if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };
+    let arguments =
+        if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };
     let span = cursor.since(place.start);
     if let Some(fold) = fold {
         check_arity(cursor, name, span, arguments.len(), 1, usize::MAX);

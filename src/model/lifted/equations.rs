@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Numbering, identity, with_inputs};
 use crate::model::assemble::support_rows;
-use crate::model::mapped::Maps;
+use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
 use crate::problem::formula::{Response, Subject, What};
 use crate::problem::statics::Statics;
@@ -22,7 +22,15 @@ pub(super) fn inner_problem(problem: &Problem, structure: &Structure, statics: &
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
             let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
             let (name, place, text) = ("force".into(), String::new(), String::new());
-            inner.constraints.push(Constraint { name, detail: Box::default(), place, text, scope: Scope::Ribs(ribs), left, right });
+            inner.constraints.push(Constraint {
+                name,
+                detail: Box::default(),
+                place,
+                text,
+                scope: Scope::Ribs(ribs),
+                left,
+                right,
+            });
         }
     }
     inner

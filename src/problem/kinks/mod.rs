@@ -43,7 +43,7 @@ impl Problem {
         let objective = std::mem::take(&mut restating.problem.objective);
         let place = Constraint {
             detail: Box::default(),
-name: "the objective".into(),
+            name: "the objective".into(),
             place: "the objective".into(),
             text: restating.problem.objective_text.clone(),
             scope: Scope::Once,

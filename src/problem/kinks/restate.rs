@@ -55,7 +55,7 @@ impl Restating {
             may_add: true,
             place: Constraint {
                 detail: Box::default(),
-name: String::new(),
+                name: String::new(),
                 place: String::new(),
                 text: String::new(),
                 scope: Scope::Once,
@@ -419,7 +419,15 @@ name: String::new(),
         let zero = Formula::Constant(0.0);
         let right = if upward { Limit::AtMost(zero) } else { Limit::AtLeast(zero) };
         let Constraint { place, text, .. } = &self.place;
-        Constraint { name: name.into(), detail: Box::default(), place: place.clone(), text: text.clone(), scope: Scope::Once, left, right }
+        Constraint {
+            name: name.into(),
+            detail: Box::default(),
+            place: place.clone(),
+            text: text.clone(),
+            scope: Scope::Once,
+            left,
+            right,
+        }
     }
 
     fn add_variable(&mut self, name: &str, lower: f64, upper: f64) -> Formula {

@@ -32,7 +32,15 @@ fn problem(objective: Formula, lower: f64, upper: f64) -> Problem {
 }
 
 fn once(left: Formula, right: Limit) -> Problem {
-    let constraint = Constraint { name: "c".into(), detail: Box::default(), place: String::new(), text: String::new(), scope: Scope::Once, left, right };
+    let constraint = Constraint {
+        name: "c".into(),
+        detail: Box::default(),
+        place: String::new(),
+        text: String::new(),
+        scope: Scope::Once,
+        left,
+        right,
+    };
     Problem { constraints: vec![constraint], ..problem(Formula::Constant(0.0), -1.0, 1.0) }.without_kinks()
 }
 

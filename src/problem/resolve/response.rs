@@ -46,7 +46,6 @@ pub struct Open {
     pub forms: Vec<u16>,
 }
 
-
 /// One argument, read as a word where it may be one.
 struct Argument<'a> {
     ast: &'a Ast,
@@ -192,7 +191,8 @@ impl<'a> Resolver<'a, '_> {
 
     fn node(&mut self, structure: &Structure, name: &str, arguments: &mut Arguments) -> Option<Subject> {
         let own = self.scope.is_some_and(|scope| scope.collection == Collection::Nodes);
-        let find = |word: &str| (0..structure.nodes.names.len() as u32).find(|&node| &structure.nodes.names[node as usize] == word);
+        let find =
+            |word: &str| (0..structure.nodes.names.len() as u32).find(|&node| &structure.nodes.names[node as usize] == word);
         if own && arguments.list.len() == 1 {
             return Some(Subject::Own);
         }
@@ -223,7 +223,11 @@ impl<'a> Resolver<'a, '_> {
             if structure.member(rib).is_none() {
                 let rib = &problem.ribs.names[rib as usize];
                 let help = "give it `start` and `end`";
-                return self.mistake(arguments.span, format!("rib `{rib}` has no nodes, so it is no part of the structure"), Some(help.into()));
+                return self.mistake(
+                    arguments.span,
+                    format!("rib `{rib}` has no nodes, so it is no part of the structure"),
+                    Some(help.into()),
+                );
             }
             return Some(Subject::Rib(rib));
         }
@@ -235,7 +239,11 @@ impl<'a> Resolver<'a, '_> {
                     Some(&rib) => {
                         let rib = &problem.ribs.names[rib as usize];
                         let help = "choose others by `only` or `where`, or give it `start` and `end`";
-                        self.mistake(arguments.span, format!("rib `{rib}` has no nodes, so `{name}` has no value there"), Some(help.into()))
+                        self.mistake(
+                            arguments.span,
+                            format!("rib `{rib}` has no nodes, so `{name}` has no value there"),
+                            Some(help.into()),
+                        )
                     }
                 }
             }
@@ -253,13 +261,7 @@ impl<'a> Resolver<'a, '_> {
         }
     }
 
-    fn needed<T>(
-        &mut self,
-        name: &str,
-        arguments: &mut Arguments,
-        what: &str,
-        passes: impl Fn(&str) -> Option<T>,
-    ) -> Option<T> {
+    fn needed<T>(&mut self, name: &str, arguments: &mut Arguments, what: &str, passes: impl Fn(&str) -> Option<T>) -> Option<T> {
         if let Some(found) = arguments.word(passes) {
             return Some(found);
         }
@@ -284,7 +286,11 @@ impl<'a> Resolver<'a, '_> {
         self.report.open.station = true;
         match self.world.chosen.station {
             Some(station) => Some(station),
-            None => self.mistake(span, "no station is named", Some("only a constraint is spread over all stations: give a fraction of the rib's length".into())),
+            None => self.mistake(
+                span,
+                "no station is named",
+                Some("only a constraint is spread over all stations: give a fraction of the rib's length".into()),
+            ),
         }
     }
 
@@ -296,7 +302,11 @@ impl<'a> Resolver<'a, '_> {
         self.report.open.forms.extend(forms);
         match self.world.chosen.point {
             Some(point) => Some(Arc::from(point)),
-            None => self.mistake(span, "no point of the section is named", Some("only a constraint is spread over all points: name one, as top".into())),
+            None => self.mistake(
+                span,
+                "no point of the section is named",
+                Some("only a constraint is spread over all points: name one, as top".into()),
+            ),
         }
     }
 

@@ -65,7 +65,8 @@ impl Tapered<'_> {
         }
         let (middle, end) = (self.property(graph, 0.5, "A"), self.property(graph, 1.0, "A"));
         let mut combined = |factors: [f64; 3]| {
-            let parts = [(factors[0], start), (factors[1], middle), (factors[2], end)].map(|(factor, area)| graph.scale(factor, area));
+            let parts =
+                [(factors[0], start), (factors[1], middle), (factors[2], end)].map(|(factor, area)| graph.scale(factor, area));
             graph.sum(&parts)
         };
         let (linear, quadratic) = (combined([-3.0, 4.0, -1.0]), combined([2.0, -4.0, 2.0]));

@@ -1,0 +1,132 @@
+//! The analysis as text and as JSON.
+
+use std::io::{self, Write};
+
+use ribopt::problem::Problem;
+use ribopt::problem::structure::{DIRECTIONS, Structure};
+use ribopt::report::number::short;
+use ribopt::report::text::TextTable;
+use ribopt::run::analyse::{Analysis, CaseResponses, Extreme};
+use serde_json::{Map, Value, json};
+
+/// Rows of a table shown on the console; JSON has all.
+const MOST: usize = 40;
+
+/// Everything as one JSON object.
+pub fn json(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::Result<()> {
+    let definitions: Map<String, Value> = analysis.definitions.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
+    let mut whole = json!({ "definitions": definitions, "equilibrium_residual": analysis.equilibrium_residual });
+    if let Some(structure) = problem.structure.as_deref() {
+        let cases: Map<String, Value> =
+            analysis.cases.iter().map(|case| (case.name.clone(), case_json(case, structure, problem))).collect();
+        whole["cases"] = cases.into();
+    }
+    if !analysis.gradient.is_empty() {
+        let of = |row: &Vec<f64>| -> Map<String, Value> {
+            analysis.variables.iter().cloned().zip(row.iter().map(|&value| json!(value))).collect()
+        };
+        let gradient: Map<String, Value> =
+            analysis.definitions.iter().zip(&analysis.gradient).map(|((name, _), row)| (name.clone(), of(row).into())).collect();
+        whole["gradient"] = gradient.into();
+    }
+    serde_json::to_writer_pretty(&mut *out, &whole)?;
+    writeln!(out)
+}
+
+fn case_json(case: &CaseResponses, structure: &Structure, problem: &Problem) -> Value {
+    let by_node = |list: &[(u32, usize, f64)]| {
+        let mut nodes: Map<String, Value> = Map::new();
+        for &(node, direction, value) in list {
+            let name = structure.nodes.names[node as usize].to_owned();
+            nodes.entry(name).or_insert_with(|| json!({}))[DIRECTIONS[direction]] = json!(value);
+        }
+        Value::from(nodes)
+    };
+    let mut ribs: Map<String, Value> = Map::new();
+    let name = |extreme: &Extreme| problem.ribs.names[extreme.rib as usize].to_owned();
+    for extreme in &case.forces {
+        let ((least, at_least, _), (most, at_most, _)) = (extreme.least, extreme.most);
+        ribs.entry(name(extreme)).or_insert_with(|| json!({}))[extreme.of] =
+            json!({ "min": least, "min_at": at_least, "max": most, "max_at": at_most });
+    }
+    for extreme in &case.stresses {
+        let ((least, at_least, low), (most, at_most, high)) = (extreme.least, extreme.most);
+        ribs.entry(name(extreme)).or_insert_with(|| json!({}))["stress"] = json!({
+            "min": least, "min_at": at_least, "min_point": low, "max": most, "max_at": at_most, "max_point": high
+        });
+    }
+    json!({ "displacements": by_node(&case.displacements), "reactions": by_node(&case.reactions), "ribs": ribs })
+}
+
+/// Tables by case, then definitions.
+pub fn text(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{AXES}")?;
+    let Some(structure) = problem.structure.as_deref() else { return Ok(()) };
+    for case in &analysis.cases {
+        writeln!(out, "\n{}", case.name)?;
+        by_node("displacements", &case.displacements, structure, out)?;
+        by_node("reactions", &case.reactions, structure, out)?;
+        ribs(case, problem, out)?;
+    }
+    if !analysis.definitions.is_empty() {
+        writeln!(out)?;
+        analysis.definitions.iter().try_for_each(|(name, value)| writeln!(out, "{name} = {}", short(*value)))?;
+    }
+    if !analysis.gradient.is_empty() {
+        gradient(analysis, out)?;
+    }
+    writeln!(out, "\nequilibrium residual: {}", short(analysis.equilibrium_residual))
+}
+
+/// Said once in every summary.
+const AXES: &str =
+    "z is up; ribs: x along, z height, y width; My bends about y and goes with Ix (Eurocode's Iy); N is positive in tension.";
+
+fn by_node(title: &str, list: &[(u32, usize, f64)], structure: &Structure, out: &mut dyn Write) -> io::Result<()> {
+    let directions: Vec<usize> = (0..6).filter(|at| list.iter().any(|(_, direction, _)| direction == at)).collect();
+    let header: Vec<&str> = [title].into_iter().chain(directions.iter().map(|&at| DIRECTIONS[at])).collect();
+    let mut table = TextTable::new(1, &header);
+    let (mut nodes, mut left_out) = (0, 0);
+    for group in list.chunk_by(|a, b| a.0 == b.0) {
+        if nodes == MOST {
+            left_out += 1;
+            continue;
+        }
+        nodes += 1;
+        let value =
+            |at: &usize| group.iter().find(|(_, direction, _)| direction == at).map_or(String::new(), |found| short(found.2));
+        let name = structure.nodes.names[group[0].0 as usize].to_owned();
+        table.add([name].into_iter().chain(directions.iter().map(value)).collect());
+    }
+    write!(out, "{table}")?;
+    more(left_out, "nodes", out)
+}
+
+fn ribs(case: &CaseResponses, problem: &Problem, out: &mut dyn Write) -> io::Result<()> {
+    let mut table = TextTable::new(2, &["rib", "", "least", "at", "most", "at", ""]);
+    let all: Vec<&Extreme> = case.forces.iter().chain(&case.stresses).collect();
+    let mut sorted = all.clone();
+    sorted.sort_by_key(|extreme| extreme.rib);
+    for extreme in sorted.iter().take(6 * MOST) {
+        let ((least, at_least, low), (most, at_most, high)) = (extreme.least, extreme.most);
+        let of = if extreme.of.is_empty() { "stress" } else { extreme.of };
+        let points = if low == high { low.to_owned() } else { format!("{low}, {high}") };
+        let name = problem.ribs.names[extreme.rib as usize].to_owned();
+        table.add(vec![name, of.into(), short(least), short(at_least), short(most), short(at_most), points]);
+    }
+    write!(out, "{table}")?;
+    more(all.len().saturating_sub(6 * MOST), "lines", out)
+}
+
+fn gradient(analysis: &Analysis, out: &mut dyn Write) -> io::Result<()> {
+    for ((name, _), row) in analysis.definitions.iter().zip(&analysis.gradient) {
+        writeln!(out, "\nd({name})")?;
+        let shown = analysis.variables.iter().zip(row).filter(|(_, slope)| **slope != 0.0);
+        shown.take(MOST).try_for_each(|(variable, slope)| writeln!(out, "  by {variable}: {}", short(*slope)))?;
+    }
+    Ok(())
+}
+
+fn more(left_out: usize, what: &str, out: &mut dyn Write) -> io::Result<()> {
+    if left_out == 0 { Ok(()) } else { writeln!(out, "  … and {left_out} more {what}; --json has all") }
+}

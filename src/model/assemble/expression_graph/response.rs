@@ -1,0 +1,304 @@
+//! Graphs of what a structure does.
+
+use super::{Context, Item, Lowering, OwnNumber, end_section};
+use crate::expression::graph::NodeId;
+use crate::model::assemble::member::{Framework, MemberNodes, loads};
+use crate::model::lifted::nodal_load;
+use crate::problem::formula::{End, Response, Subject, What};
+use crate::problem::structure::Shear;
+use crate::sections;
+use crate::structure::algebra::Algebra;
+use crate::structure::axes::{Frame, frame};
+use crate::structure::beam::{Beam, Bending, Tapered};
+use crate::structure::deformation::{BASIC, along, rows, turning};
+
+impl Lowering<'_> {
+    /// The graph of a response.
+    pub(super) fn response(&mut self, response: &Response, context: Context) -> NodeId {
+        let nothing = |lowering: &mut Self| lowering.graph.constant(f64::NAN);
+        let Some(framework) = Framework::of(self.problem) else { return nothing(self) };
+        let node = match (response.subject, context.item) {
+            (Subject::Node(node), _) | (Subject::Own, Item::Node(node)) => Some(node),
+            _ => None,
+        };
+        let rib = match (response.subject, context.item) {
+            (Subject::Rib(rib), _) | (Subject::Own, Item::Rib(rib)) => Some(rib),
+            _ => None,
+        };
+        if let (What::Length, Some(rib)) = (&response.what, rib) {
+            return self.rib_length(rib, response.subject == Subject::Own);
+        }
+        match (&response.what, node, rib.and_then(|rib| framework.structure.member(rib))) {
+            (What::Displacement(direction), Some(node), _) => {
+                self.variable(framework.displacement(response.set, node, usize::from(*direction)))
+            }
+            (What::Reaction(direction), Some(node), _) => self.reaction(framework, response.set, node, usize::from(*direction)),
+            (What::Compliance, ..) => self.compliance(framework, response.set),
+            (What::Mass, _, Some(member)) => self.mass(framework, member, response.subject == Subject::Own),
+            (what, _, Some(member)) => self.of_member(framework, member, response.set, what),
+            _ => nothing(self),
+        }
+    }
+
+    /// The nodes of a member in a case or combination, made once.
+    pub(super) fn member(&mut self, framework: Framework, member: u32, set: u32) -> MemberNodes {
+        if let Some(known) = self.members.get(&(member, set)) {
+            return known.clone();
+        }
+        let nodes = match framework.is_plain(member) {
+            true => self.plain_member(framework, member, set),
+            false => self.varying_member(framework, member, set),
+        };
+        self.members.insert((member, set), nodes.clone());
+        nodes
+    }
+
+    /// Numbers first, then inputs, in the order in which items bring them to a shared template.
+    fn plain_member(&mut self, framework: Framework, member: u32, set: u32) -> MemberNodes {
+        let (numbers, values) = framework.numbers(member, set);
+        let [length, young, shear] = [0, 1, 2].map(|at| self.number(numbers[at]));
+        let loads = values.map(|value| self.number(value));
+        let inputs = framework.inputs(member, set);
+        let deformations = inputs.map(|input| match input {
+            Some(input) => self.variable(input),
+            None => self.graph.constant(0.0),
+        });
+        MemberNodes { length, young, shear: Some(shear), loads, deformations, rows: None, frame: None }
+    }
+
+    /// A member whose nodes or modulus vary with the design: everything as formulas of them and of its ends' displacements.
+    fn varying_member(&mut self, framework: Framework, member: u32, set: u32) -> MemberNodes {
+        let (declared, prepared) = framework.member(member);
+        let frame = self.varying_frame(framework, member);
+        let material = &framework.structure.materials[declared.material as usize];
+        let young = self.dimension(u32::MAX, material.young);
+        let shear = material.shear.map(|shear| match shear {
+            Shear::Modulus(modulus) => self.dimension(u32::MAX, modulus),
+            Shear::Poisson(ratio) => self.graph.scale(0.5 / (1.0 + ratio), young),
+        });
+        let loads = loads(&mut self.graph, framework, member, set, &frame);
+        let rows = rows(&mut self.graph, &frame, declared.offset);
+        let deformations = match prepared.fixed {
+            true => framework.inputs(member, set).map(|input| match input {
+                Some(input) => self.variable(input),
+                None => self.graph.constant(0.0),
+            }),
+            false => std::array::from_fn(|component| match prepared.components[component] {
+                true => self.deformation(framework, (declared.start, declared.end), set, &rows[component]),
+                false => self.graph.constant(0.0),
+            }),
+        };
+        MemberNodes { length: frame.length, young, shear, loads, deformations, rows: Some(rows), frame: Some(frame) }
+    }
+
+    /// Length and axes of a member as formulas of its nodes' coordinates.
+    fn varying_frame(&mut self, framework: Framework, member: u32) -> Frame<NodeId> {
+        let (declared, prepared) = framework.member(member);
+        let ends = [declared.start, declared.end]
+            .map(|node| framework.structure.nodes.position[node as usize].map(|coordinate| self.dimension(u32::MAX, coordinate)));
+        let between: [NodeId; 3] = std::array::from_fn(|axis| {
+            let chord = self.graph.subtract(ends[1][axis], ends[0][axis]);
+            let arms = self.graph.constant(declared.offset[1][axis] - declared.offset[0][axis]);
+            self.graph.add(chord, arms)
+        });
+        frame(&mut self.graph, between, prepared.rule, declared.roll)
+    }
+
+    /// A rib's length: a number of the item or a constant, or a formula where its nodes move with the design.
+    pub(super) fn rib_length(&mut self, rib: u32, own: bool) -> NodeId {
+        let varying = Framework::of(self.problem)
+            .and_then(|framework| Some((framework, framework.structure.member(rib)?)))
+            .filter(|(framework, member)| !framework.member(*member).1.fixed);
+        match varying {
+            Some((framework, member)) => self.varying_frame(framework, member).length,
+            None if own => self.own_number(Item::Rib(rib), OwnNumber::Length),
+            None => self.graph.constant(self.problem.ribs.length[rib as usize]),
+        }
+    }
+
+    /// Σ row·u over the twelve displacements of a member's ends.
+    fn deformation(&mut self, framework: Framework, (start, end): (u32, u32), set: u32, row: &[NodeId; 12]) -> NodeId {
+        let mut parts = Vec::new();
+        for (at, &coefficient) in row.iter().enumerate() {
+            let node = if at < 6 { start } else { end };
+            let vanishes = self.graph.as_constant(coefficient) == Some(0.0);
+            if !vanishes && framework.statics.exists[node as usize][at % 6] {
+                let displacement = self.variable(framework.displacement(set, node, at % 6));
+                parts.push(Algebra::multiply(&mut self.graph, coefficient, displacement));
+            }
+        }
+        self.graph.sum(&parts)
+    }
+
+    /// Calls `then` with the member as a beam.
+    fn with_beam<T>(
+        &mut self,
+        framework: Framework,
+        member: u32,
+        set: u32,
+        then: impl FnOnce(&mut crate::expression::graph::Graph, &Beam) -> T,
+    ) -> T {
+        let (declared, prepared) = framework.member(member);
+        let sections = [End::From, End::To].map(|end| end_section(self.problem, declared.rib, end));
+        let nodes = self.member(framework, member, set);
+        let [start, end] = sections.map(|section| self.item_section(section));
+        let form = sections::form(self.problem.sections.form[sections[0] as usize]);
+        let outline = self.problem.outline(sections[0]);
+        let beam = Beam {
+            section: Tapered { form, outline, start: &start, end: &end },
+            length: nodes.length,
+            young: nodes.young,
+            shear: nodes.shear,
+            components: prepared.components,
+            deforms_in_shear: declared.shear,
+            grading: &prepared.grading,
+            loads: nodes.loads,
+            deformations: nodes.deformations,
+        };
+        then(&mut self.graph, &beam)
+    }
+
+    fn of_member(&mut self, framework: Framework, member: u32, set: u32, what: &What) -> NodeId {
+        if let What::End(direction) = what {
+            return self.end_force(framework, member, set, usize::from(*direction));
+        }
+        self.with_beam(framework, member, set, |graph, beam| match what {
+            What::Basic(component) => beam.basic_force(graph, usize::from(*component)),
+            What::Support(component) => beam.support_forces(graph)[usize::from(*component)],
+            What::Force(force, x) => beam.force(graph, *force, *x),
+            What::Deflection(true, x) => Bending::vertical(beam).deflection(graph, *x),
+            What::Deflection(false, x) => Bending::lateral(beam).deflection(graph, *x),
+            What::Stress(x, point) => beam.stress(graph, *x, point),
+            What::Shear(x, point, sign) => beam.shear_stress(graph, *x, point, *sign),
+            _ => graph.constant(f64::NAN),
+        })
+    }
+
+    /// abᵀq + (ΘO)ᵀg in one of the twelve directions of a member's ends.
+    pub(super) fn end_force(&mut self, framework: Framework, member: u32, set: u32, direction: usize) -> NodeId {
+        let (declared, prepared) = framework.member(member);
+        let nodes = self.member(framework, member, set);
+        let rows = nodes.rows.unwrap_or_else(|| prepared.rows.map(|row| row.map(|value| self.graph.constant(value))));
+        let frame = nodes.frame.unwrap_or_else(|| Frame {
+            length: nodes.length,
+            axes: prepared.frame.axes.map(|axis| axis.map(|value| self.graph.constant(value))),
+        });
+        let column: [NodeId; BASIC] = std::array::from_fn(|component| rows[component][direction]);
+        let supports = support_rows(&mut self.graph, &frame, declared.offset).map(|row| row[direction]);
+        self.with_beam(framework, member, set, |graph, beam| {
+            let mut parts = Vec::new();
+            for (component, &coefficient) in column.iter().enumerate() {
+                if beam.components[component] && graph.as_constant(coefficient) != Some(0.0) {
+                    let force = beam.basic_force(graph, component);
+                    parts.push(Algebra::multiply(graph, coefficient, force));
+                }
+            }
+            for (coefficient, force) in supports.into_iter().zip(beam.support_forces(graph)) {
+                parts.push(Algebra::multiply(graph, coefficient, force));
+            }
+            graph.sum(&parts)
+        })
+    }
+
+    /// What the ground exerts on a node: everything its members exert on it there, less the loads; of a spring its force.
+    fn reaction(&mut self, framework: Framework, set: u32, node: u32, direction: usize) -> NodeId {
+        let stiffness = framework.structure.supports.iter().find(|support| support.node == node);
+        let spring = stiffness.map_or(0.0, |support| support.springs[direction]);
+        if spring != 0.0 {
+            let displacement = self.variable(framework.displacement(set, node, direction));
+            return self.graph.scale(-spring, displacement);
+        }
+        let mut parts = Vec::new();
+        for &member in &framework.statics.members_at[node as usize] {
+            let (declared, _) = framework.member(member);
+            for (end, at) in [declared.start, declared.end].into_iter().enumerate() {
+                if at == node {
+                    parts.push(self.end_force(framework, member, set, 6 * end + direction));
+                }
+            }
+        }
+        let load = nodal_load(framework.structure, framework.statics, set, node, direction);
+        parts.push(self.graph.constant(-load));
+        self.graph.sum(&parts)
+    }
+
+    /// pᵀu over the free directions: of the nodes' loads, and of the members' as they act on their ends when these are held.
+    fn compliance(&mut self, framework: Framework, set: u32) -> NodeId {
+        let mut parts = Vec::new();
+        for node in 0..framework.structure.nodes.names.len() as u32 {
+            for direction in 0..6 {
+                let load = nodal_load(framework.structure, framework.statics, set, node, direction);
+                if load != 0.0 && framework.statics.is_free(node, direction) {
+                    let displacement = self.variable(framework.displacement(set, node, direction));
+                    parts.push(self.graph.scale(load, displacement));
+                }
+            }
+        }
+        for member in 0..framework.structure.members.len() as u32 {
+            parts.push(self.held_work(framework, member, set));
+        }
+        self.graph.sum(&parts)
+    }
+
+    /// The work that the equivalent end forces of a member's loads do: less its end forces at zero deformation.
+    fn held_work(&mut self, framework: Framework, member: u32, set: u32) -> NodeId {
+        let (declared, prepared) = framework.member(member);
+        if prepared.loads.is_empty() {
+            return self.graph.constant(0.0);
+        }
+        let known = self.member(framework, member, set);
+        let held = MemberNodes { deformations: [self.graph.constant(0.0); BASIC], ..known.clone() };
+        self.members.insert((member, set), held);
+        let mut parts = Vec::new();
+        for at in 0..12 {
+            let node = if at < 6 { declared.start } else { declared.end };
+            if framework.statics.is_free(node, at % 6) {
+                let force = self.end_force(framework, member, set, at);
+                let displacement = self.variable(framework.displacement(set, node, at % 6));
+                let work = Algebra::multiply(&mut self.graph, force, displacement);
+                parts.push(self.graph.scale(-1.0, work));
+            }
+        }
+        self.members.insert((member, set), known);
+        self.graph.sum(&parts)
+    }
+
+    /// Density times ∫A dx.
+    fn mass(&mut self, framework: Framework, member: u32, own: bool) -> NodeId {
+        let (declared, _) = framework.member(member);
+        let item = Item::Rib(declared.rib);
+        let density = match own {
+            true => self.own_number(item, OwnNumber::Material("density".into())),
+            false => {
+                let density = framework.structure.materials[declared.material as usize].density;
+                self.graph.constant(density.unwrap_or(f64::NAN))
+            }
+        };
+        let length = self.rib_length(declared.rib, own);
+        let sections = [End::From, End::To].map(|end| end_section(self.problem, declared.rib, end));
+        let [start, end] = sections.map(|section| if own { self.own_section(section) } else { self.named_section(section) });
+        let form = sections::form(self.problem.sections.form[sections[0] as usize]);
+        let tapered = Tapered { form, outline: self.problem.outline(sections[0]), start: &start, end: &end };
+        let mean = tapered.mean_area(&mut self.graph);
+        let volume = self.graph.multiply(length, mean);
+        self.graph.multiply(density, volume)
+    }
+}
+
+/// Where the six support forces of a simply supported member act: the start along x, y, z and about x, the end along y and z.
+pub(in crate::model) fn support_rows<A: Algebra>(
+    algebra: &mut A,
+    frame: &Frame<A::Number>,
+    offset: [[f64; 3]; 2],
+) -> [[A::Number; 12]; 6] {
+    let [e1, e2, e3] = frame.axes;
+    [
+        along(algebra, 0, e1, offset[0]),
+        along(algebra, 0, e2, offset[0]),
+        along(algebra, 0, e3, offset[0]),
+        turning(algebra, 0, e1),
+        along(algebra, 1, e2, offset[1]),
+        along(algebra, 1, e3, offset[1]),
+    ]
+}
+
