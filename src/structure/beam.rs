@@ -62,7 +62,8 @@ impl Beam<'_> {
         for (power, coefficient) in self.section.area_coefficients(graph).into_iter().enumerate() {
             let axial = Algebra::multiply(graph, self.length, coefficient);
             let transverse = Algebra::multiply(graph, self.length, axial);
-            let ways = [(Way::Axial, weight[0], axial), (Way::Lateral, weight[1], transverse), (Way::Vertical, weight[2], transverse)];
+            let ways =
+                [(Way::Axial, weight[0], axial), (Way::Lateral, weight[1], transverse), (Way::Vertical, weight[2], transverse)];
             for (way, component, factor) in ways {
                 let value = Algebra::multiply(graph, component, factor);
                 if graph.as_constant(value) != Some(0.0) {
@@ -76,7 +77,8 @@ impl Beam<'_> {
     /// Points and weights for integrals over the length, cut also at `more`.
     fn quadrature(&self, terms: &[Term<NodeId>], more: Option<f64>) -> Vec<(f64, f64)> {
         let loads = terms.iter().flat_map(|term| term.spread.breaks());
-        let mut breaks: Vec<f64> = self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
+        let mut breaks: Vec<f64> =
+            self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         quadrature::pieces(&breaks, !self.section.is_prismatic())

@@ -301,4 +301,3 @@ pub(in crate::model) fn support_rows<A: Algebra>(
         along(algebra, 1, e3, offset[1]),
     ]
 }
-
