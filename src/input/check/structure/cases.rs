@@ -21,7 +21,7 @@ impl Assembly<'_> {
     }
 
     /// Where a case is met for the first time.
-    pub(in crate::input::assemble) fn case_place(&self, case: u32) -> Place {
+    pub(in crate::input::check) fn case_place(&self, case: u32) -> Place {
         self.building.case_places.get(case as usize).copied().unwrap_or(Place::Whole)
     }
 
