@@ -20,6 +20,9 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("profile", include_str!("examples/profile.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
     ("load-cases", include_str!("examples/load-cases.toml")),
+    ("truss", include_str!("examples/truss.toml")),
+    ("frame", include_str!("examples/frame.toml")),
+    ("grillage", include_str!("examples/grillage.toml")),
 ];
 
 /// The names [`example`] knows.

@@ -49,6 +49,11 @@ impl<'a> Fields<'a> {
         Fields { fields, known: Vec::new(), place }
     }
 
+    /// Whether there is a field of this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.fields.iter().any(|field| field.key == key)
+    }
+
     /// A field by its key.
     pub fn take(&mut self, key: &'static str) -> Option<Field<'a>> {
         self.known.push(key);

@@ -1,5 +1,7 @@
 //! The JSON Schema of the problem file, for completion and checks in editors.
 
+mod structure;
+
 use serde_json::{Map, Value, json};
 
 use super::parse_tables::{DEFAULT_DEGREE, PROFILE_KINDS};
@@ -29,11 +31,21 @@ pub fn schema() -> Value {
             "definitions": map_of(scalar("An expression."), "Names for expressions, in any order, without circles."),
             "sections": map_of(section(), "Cross-sections."),
             "ribs": { "type": "array", "items": rib() },
+            "structure": structure::settings(),
+            "materials": map_of(structure::material(), "Materials of ribs between nodes."),
+            "nodes": map_of(structure::node(), "Nodes: coordinates, two in a plane, three in space."),
+            "supports": map_of(structure::support(), "What holds nodes: keys are names or patterns."),
+            "masses": map_of(scalar("Mass."), "Masses at nodes besides the ribs' own, for frequencies."),
+            "loads": { "type": "array", "items": structure::load() },
+            "combinations": map_of(map_of(scalar("Factor."), "Factors by load case."), "Combinations of load cases."),
             "constraints": { "type": "array", "items": constraint() },
             "solver": solver(),
             "tables": object(json!({
                 "sections": text("CSV table of sections: name, kind, dimensions (b, or b.lower, b.upper, b.start), data."),
-                "ribs": text("CSV table of ribs: name, from, to (or section), length, volume, data."),
+                "ribs": text("CSV table of ribs: name, from, to (or section), length (or start and end), volume, data."),
+                "nodes": text("CSV table of nodes: name, x, y, z, data."),
+                "supports": text("CSV table of supports: node, fix (pinned, fixed, or directions such as x z), kx … krz."),
+                "loads": text("CSV table of loads: case, node (or rib, line), fx, fy, fz, mx, my, mz, axes, at."),
             }), &[]),
         },
         "not": { "required": ["minimize", "maximize"] },
@@ -167,13 +179,17 @@ fn rib() -> Value {
             "from": text("Section at the left end."),
             "to": text("Section at the right end."),
             "section": text("The same section at both ends, instead of from and to."),
-            "length": scalar("Length, positive."),
+            "length": scalar("Length, positive; of a rib between nodes their distance."),
             "volume": { "enum": ["frustum", "prismatoid"], "description": "Volume law, by default frustum." },
             "data": data(),
         }),
-        &["name", "length"],
+        &["name"],
     );
-    rib["oneOf"] = json!([{ "required": ["from", "to"] }, { "required": ["section"] }]);
+    structure::member(&mut rib["properties"]);
+    rib["allOf"] = json!([
+        { "oneOf": [{ "required": ["from", "to"] }, { "required": ["section"] }] },
+        { "anyOf": [{ "required": ["length"] }, { "required": ["start", "end"] }] },
+    ]);
     rib
 }
 
@@ -183,7 +199,7 @@ fn constraint() -> Value {
         json!({
             "name": text("Its name in reports."),
             "require": text("a <= b, a >= b, a == b, or lo <= a <= hi with constant lo and hi."),
-            "for": { "enum": ["sections", "ribs"], "description": "Once per section or rib." },
+            "for": { "enum": ["sections", "ribs", "nodes"], "description": "Once per section, rib or node." },
             "only": { "type": ["array", "string"], "items": { "type": "string" }, "description": "Patterns (* and ?) of names." },
             "kind": { "enum": kinds, "description": "Items of this kind only." },
             "where": text("A comparison of data and parameters that chooses items."),

@@ -63,6 +63,9 @@ impl Shape {
         if let Some(defect) = kind.defect(form, &values, outline) {
             return Err(failure(defect));
         }
+        if !kind.has_rings() {
+            return Err(failure(format!("kind {} is numbers only", kind.name())));
+        }
         let rings = kind.matching_rings(form, &values, outline);
         Ok(Shape { names: form.dimensions, values, rings })
     }

@@ -10,6 +10,10 @@ use crate::problem::nearest::did_you_mean;
 use crate::problem::{Dimension, Origin, VolumeLaw};
 use crate::sections::{self, Form, Kind};
 
+/// Sets of dimensions that help lists whole; of a kind with more, only this many.
+const MOST_SETS: usize = 8;
+const SETS_SHOWN: usize = 3;
+
 /// One given dimension of a section.
 pub(super) struct Given<'n> {
     pub name: &'n str,
@@ -183,8 +187,14 @@ impl Assembly<'_> {
         let has = |dimension: &&str| given.iter().any(|one| one.name == *dimension);
         let takes = |form: &Form| given.iter().all(|one| form.dimensions.contains(&one.name));
         let numbered = |form: &&Form| form.dimensions.iter().any(|name| name.ends_with(']'));
-        let sets: Vec<String> =
-            kind.forms().iter().filter(|form| !numbered(form)).map(|form| form.dimensions.join(", ")).collect();
+        let mut forms: Vec<&Form> = kind.forms().iter().filter(|form| !numbered(form)).collect();
+        if forms.len() > MOST_SETS {
+            // Of many sets those that take what is given, or else those that come nearest.
+            let foreign = |form: &Form| given.iter().filter(|one| !form.dimensions.contains(&one.name)).count();
+            forms.sort_by_key(|form| (foreign(form), form.dimensions.len()));
+            forms.truncate(SETS_SHOWN);
+        }
+        let sets: Vec<String> = forms.iter().map(|form| form.dimensions.join(", ")).collect();
         let list = kind.forms().iter().find(numbered).and_then(|form| form.dimensions.first()?.split('[').next());
         let list = list.map(|name| format!("; or {name} = [ … ], one per segment")).unwrap_or_default();
         let help = format!("give {}{list}", sets.join("; or "));

@@ -107,6 +107,7 @@ pub(super) fn check(
     assembly.constraints(&declared.constraints);
     assembly.check_existence();
     assembly.say_unused();
+    assembly.say_unused_cases();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
     assembly.problem.units = std::mem::take(&mut declared.units);
     assembly.problem.settings = declared.settings.clone();

@@ -117,7 +117,11 @@ impl Assembly<'_> {
         let given = given.map(|(value, place)| (self.length(value, place), place));
         if given.is_none() && member.is_none() && columns.length.is_none_or(|at| row.field(at).is_empty()) {
             let place = row.place(columns.length.unwrap_or(columns.name));
-            self.findings.mistake(place, format!("rib `{}` has no length", name.text), "expected a positive number");
+            let help = match columns.member {
+                Some(_) => "fill the cells `start` and `end`, or `length`",
+                None => "expected a positive number",
+            };
+            self.findings.mistake(place, format!("rib `{}` has no length", name.text), help);
         }
         let length = given.map_or(1.0, |(length, _)| length);
         let law = columns.law.map_or(VolumeLaw::default(), |at| self.law_cell(row, at));

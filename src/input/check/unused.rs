@@ -1,10 +1,36 @@
 //! Data nobody uses.
 
+use std::collections::BTreeSet;
+
 use super::Assembly;
 use crate::expression::ast::Collection;
 use crate::input::source::Place;
+use crate::problem::Formula;
+use crate::problem::formula::What;
 
 impl Assembly<'_> {
+    /// Warns of load cases in no combination and no response, where there are responses at all.
+    pub(super) fn say_unused_cases(&mut self) {
+        let Some(structure) = self.problem.structure.clone() else { return };
+        let mut mentioned = BTreeSet::new();
+        let definitions = self.problem.definitions.iter().map(|(_, formula)| formula);
+        let rows = self.problem.constraints.iter();
+        let rows = rows.flat_map(|row| std::iter::once(&row.left).chain(row.right.formulas()));
+        let all = definitions.chain(rows).chain([&self.problem.objective]);
+        all.for_each(|formula| load_sets(formula, &mut mentioned));
+        if mentioned.is_empty() {
+            return;
+        }
+        let combined = structure.combinations.iter().flat_map(|combination| &combination.factors).map(|(case, _)| *case);
+        let combined: BTreeSet<u32> = combined.collect();
+        for (case, name) in (0u32..).zip(&structure.cases) {
+            if !mentioned.contains(&case) && !combined.contains(&case) {
+                let message = format!("load case `{name}` is in no combination and no response");
+                self.findings.warning(self.case_place(case), message, "add it to a combination, or leave its loads out");
+            }
+        }
+    }
+
     /// Warns of data columns that occur in no expression, filter or grouping. `density` and `line` are used by reports.
     pub(super) fn say_unused(&mut self) {
         for (collection, word) in [(Collection::Sections, "sections"), (Collection::Ribs, "ribs"), (Collection::Nodes, "nodes")] {
@@ -20,5 +46,20 @@ impl Assembly<'_> {
                 self.findings.warning(Place::Whole, message, None);
             }
         }
+    }
+}
+
+/// The cases and combinations of the responses in a formula.
+fn load_sets(formula: &Formula, found: &mut BTreeSet<u32>) {
+    match formula {
+        Formula::Response(response) if !matches!(response.what, What::Mass | What::Length) => _ = found.insert(response.set),
+        Formula::Unary(_, operand) | Formula::Profile(_, operand) => load_sets(operand, found),
+        Formula::Binary(_, left, right) => {
+            load_sets(left, found);
+            load_sets(right, found);
+        }
+        Formula::Fold(_, list) => list.iter().for_each(|part| load_sets(part, found)),
+        Formula::Over { body, .. } => load_sets(body, found),
+        _ => {}
     }
 }

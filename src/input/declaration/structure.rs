@@ -90,6 +90,8 @@ pub(in crate::input) struct MemberEntry {
 pub(in crate::input) struct LoadEntry {
     pub place: Place,
     pub case: Option<Written>,
+    /// Whether some key says what acts, be it rightly or wrongly.
+    pub acts: bool,
     pub nodes: Option<Targets>,
     pub ribs: Option<Targets>,
     pub axes: Option<Written>,

@@ -7,9 +7,14 @@ use super::structure::vector;
 use crate::input::declaration::structure::{LoadEntry, Targets, Vector};
 use crate::input::fields::{Field, Fields, Reader, Scalar};
 
+/// Keys that say what acts.
+const KINDS: &[&str] =
+    &["force", "moment", "self_weight", "temperature", "gradient", "pretension", "displacement"];
+
 /// One load.
 pub(super) fn load(mut fields: Fields, reader: &mut Reader) -> LoadEntry {
     let place = fields.place;
+    let acts = KINDS.iter().any(|key| fields.has(key));
     let case = fields.require("case", "a load", reader).and_then(|field| field.text(reader));
     let (nodes, ribs) = (targets(&mut fields, "nodes", reader), targets(&mut fields, "ribs", reader));
     let axes = fields.take("axes").and_then(|field| field.text(reader));
@@ -25,6 +30,7 @@ pub(super) fn load(mut fields: Fields, reader: &mut Reader) -> LoadEntry {
     LoadEntry {
         place,
         case,
+        acts,
         nodes,
         ribs,
         axes,

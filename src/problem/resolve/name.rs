@@ -168,7 +168,8 @@ impl<'a> Resolver<'a, '_> {
             }
             None => match total(name) {
                 _ if name == "pi" => Some(Value::Scalar(Formula::Constant(PI))),
-                Some(total) if self.world.stage == Stage::All => self.volume(total, span).map(Value::Scalar),
+                Some(_) if self.world.stage != Stage::All => self.not_of_variables(&format!("`{name}`"), span),
+                Some(total) => self.volume(total, span).map(Value::Scalar),
                 _ if self.world.stage == Stage::All && matches!(name, "mass" | "weight") && self.is_free(name) => {
                     self.mass(name, span).map(Value::Scalar)
                 }

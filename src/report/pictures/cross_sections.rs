@@ -6,6 +6,7 @@ use crate::problem::Problem;
 use crate::report::About;
 use crate::report::cross_section::CrossSection;
 use crate::report::number::significant;
+use crate::sections;
 
 /// Sections drawn at the most.
 const MOST: u32 = 24;
@@ -36,7 +37,10 @@ impl Cell {
     fn of(section: &CrossSection, before: Rings) -> Cell {
         let dimension = |(name, value): &(&str, f64)| format!("{name} {}", significant(*value, 4));
         let after = centred(section.rings());
-        let dimensions = section.dimensions.iter().map(dimension).collect();
+        let mut dimensions: Vec<String> = section.dimensions.iter().map(dimension).collect();
+        if !sections::kind(section.kind).is_some_and(|kind| kind.has_rings()) {
+            dimensions.push(format!("kind {}: no outline", section.kind));
+        }
         Cell { name: section.name.clone(), dimensions, before: centred(before), after }
     }
 

@@ -32,6 +32,7 @@ impl Chain {
                 states: None,
                 jacobian: Pattern::from_positions(n - 1, &mut rows),
                 hessian: Pattern::from_positions(n, &mut lower),
+                states: None,
             },
         }
     }

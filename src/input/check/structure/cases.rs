@@ -20,6 +20,11 @@ impl Assembly<'_> {
         number
     }
 
+    /// Where a case is met for the first time.
+    pub(in crate::input::check) fn case_place(&self, case: u32) -> Place {
+        self.building.case_places.get(case as usize).copied().unwrap_or(Place::Whole)
+    }
+
     pub(super) fn combinations(&mut self, entries: &StructureEntries) {
         for entry in &entries.combinations {
             self.new_combination(&entry.name);

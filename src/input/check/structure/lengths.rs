@@ -12,6 +12,7 @@ impl Assembly<'_> {
     /// Enters the lengths of all members.
     pub(super) fn lengths(&mut self) {
         let positions = self.start_positions();
+        self.without_place(&positions);
         for at in 0..self.building.structure.members.len() {
             let (rib, ends) = {
                 let member = &self.building.structure.members[at];
@@ -20,11 +21,27 @@ impl Assembly<'_> {
             let [start, end] = ends.map(|node| positions[node as usize]);
             let length = distance(start, end);
             self.problem.ribs.length[rib] = length;
-            if length <= 0.0 || !length.is_finite() {
+            if !length.is_finite() {
+                // A node whose coordinates have a mistake, or no value: told at the node.
+                self.problem.ribs.length[rib] = 1.0;
+            } else if length <= 0.0 {
                 self.problem.ribs.length[rib] = 1.0;
                 self.no_length(rib, ends);
             } else if let Some((given, place)) = self.building.said.get(&(at as u32)).and_then(|said| said.length) {
                 self.same_length(rib, given, length, place);
+            }
+        }
+    }
+
+    /// The mistakes of coordinates that have no value where the variables start.
+    fn without_place(&mut self, positions: &[[f64; 3]]) {
+        for (node, position) in positions.iter().enumerate() {
+            let known = |dimension: &Dimension| !matches!(dimension, Dimension::Constant(value) if value.is_nan());
+            let declared = self.building.structure.nodes.position[node];
+            if declared.iter().all(known) && position.iter().any(|value| !value.is_finite()) {
+                let message = format!("node `{}` has no place at the start", &self.building.structure.nodes.names[node]);
+                let help = "its coordinates leave their domain there: give other starts";
+                self.findings.mistake(self.building.node_places[node], message, help);
             }
         }
     }

@@ -151,6 +151,7 @@ impl Assembly<'_> {
         .collect();
         match kinds.as_slice() {
             [_] => Some(()),
+            [] if entry.acts => None,
             [] => {
                 let help = "known: force, moment, self_weight, temperature, gradient, pretension, displacement";
                 self.findings.mistake(entry.place, "this load says nothing that acts", help);

@@ -4,6 +4,7 @@
 //! combinations; in the end, when starts of variables are known, places and lengths.
 
 mod cases;
+mod early;
 mod lengths;
 mod loads;
 mod materials;
@@ -51,6 +52,8 @@ pub(super) struct Building {
     lines: Option<std::collections::BTreeMap<Box<str>, Vec<u32>>>,
     /// Whether nodes are missing because a table could not be read.
     incomplete: bool,
+    /// Whether `plane` is none: how many coordinates there are is not known.
+    plane_unknown: bool,
     /// Whether supports are missing for that reason.
     unsupported: bool,
 }
@@ -73,6 +76,7 @@ struct Held {
 impl Assembly<'_> {
     /// What members need: settings, materials, nodes.
     pub(super) fn structure_before_ribs(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
+        self.early_definitions(declared);
         self.structure_settings(&declared.structure);
         self.materials(&declared.structure);
         self.nodes(declared, tables);

@@ -9,11 +9,14 @@ use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::DIRECTIONS;
 use crate::problem::{Cells, Column, Dimension};
 
+/// Stands for coordinates after a mistake in them.
+pub(super) const UNKNOWN: [Dimension; 3] = [Dimension::Constant(f64::NAN); 3];
+
 impl Assembly<'_> {
     pub(super) fn nodes(&mut self, declared: &Declaration, tables: &mut Tables<'_>) {
         for entry in &declared.structure.nodes {
             let position = entry.at.as_ref().and_then(|at| self.position(at, &entry.name.text));
-            let Some(node) = self.node(&entry.name, position.unwrap_or([Dimension::Constant(0.0); 3])) else { continue };
+            let Some(node) = self.node(&entry.name, position.unwrap_or(UNKNOWN)) else { continue };
             for (name, datum) in &entry.data {
                 self.building.node_data.put(&name.text, node as usize, datum);
             }

@@ -6,7 +6,7 @@ use crate::input::fields::Scalar;
 use crate::input::source::Place;
 use crate::problem::resolve::Stage;
 use crate::problem::structure::Plane;
-use crate::problem::words::brief;
+use crate::problem::words::{brief, count};
 use crate::problem::{Dimension, Formula};
 
 impl Assembly<'_> {
@@ -55,7 +55,10 @@ impl Assembly<'_> {
         if found == expected {
             return Some(());
         }
-        let numbers = |count: usize| if count == 1 { "1 number".to_owned() } else { format!("{count} numbers") };
+        if self.building.plane_unknown {
+            return None; // the plane's mistake is told already
+        }
+        let numbers = |found: usize| count(found, "number");
         let plane = self.building.structure.plane;
         let space = match plane.name() {
             Some(name) => format!("the plane \"{name}\""),
@@ -64,9 +67,10 @@ impl Assembly<'_> {
         let help = match (plane.name(), expected, found) {
             (None, 3, 2) => "add the third, or say plane = \"xz\" or \"xy\" under [structure]".to_owned(),
             (Some(_), 2, 3) => "leave one out, or leave `plane` out".to_owned(),
+            (Some(_), 1, _) => "a moment in a plane is one number, about its normal".to_owned(),
             _ => format!("expected {}", numbers(expected)),
         };
-        let message = format!("{what}: {} where {space} has {}", numbers(found), numbers(expected));
+        let message = format!("{what}: {}, but {space} takes {expected}", numbers(found));
         self.findings.mistake(vector.place, message, help);
         None
     }

@@ -24,7 +24,10 @@ impl Assembly<'_> {
             self.building.structure.plane = match written.text.as_str() {
                 "xz" => Plane::Xz,
                 "xy" => Plane::Xy,
-                _ => self.unknown_word(written, "plane", &["xz", "xy"]).unwrap_or_default(),
+                _ => {
+                    self.building.plane_unknown = true;
+                    self.unknown_word(written, "plane", &["xz", "xy"]).unwrap_or_default()
+                }
             };
         }
         self.building.pinned = entries.joints.as_ref().and_then(|written| self.joints(written)).unwrap_or(false);

@@ -28,6 +28,7 @@ impl Assembly<'_> {
     pub(in crate::input::check) fn support(&mut self, target: &Written, fixed: [bool; 6], springs: [f64; 6]) {
         let exact = self.names.nodes.find(&self.building.structure.nodes.names, &target.text).is_some();
         let by_pattern = !exact && is_pattern(&target.text);
+        let mut twice = Vec::new();
         for &node in self.targets(Target::Nodes, target).iter() {
             let support = Support { node, fixed, springs };
             match self.building.held.get(&node).copied() {
@@ -41,19 +42,23 @@ impl Assembly<'_> {
                     self.building.held.insert(node, Held { support: held.support, place: target.place, by_pattern });
                 }
                 Some(held) if !held.by_pattern && by_pattern => {}
-                Some(held) => self.twice_supported(node, target.place, held.place),
+                Some(held) => twice.push((node, held.place)),
             }
+        }
+        if let Some(&(node, first)) = twice.first() {
+            self.twice_supported(node, twice.len() - 1, target.place, first);
         }
     }
 
-    fn twice_supported(&mut self, node: u32, place: Place, first: Place) {
+    fn twice_supported(&mut self, node: u32, more: usize, place: Place, first: Place) {
         let name = &self.building.structure.nodes.names[node as usize];
-        let message = format!("node `{name}` is supported twice");
+        let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+        let message = format!("node `{name}`{more} is supported twice");
         let help = format!("its support is given at {} already; say all it holds in one place", self.spoken(first));
         self.findings.mistake(place, message, help);
     }
 
-    fn fixed(&mut self, fix: &Fix) -> [bool; 6] {
+    pub(super) fn fixed(&mut self, fix: &Fix) -> [bool; 6] {
         match fix {
             Fix::Word(written) => match self.word_of_support(&written.text) {
                 Some(fixed) => fixed,

@@ -2,6 +2,7 @@
 
 use super::super::super::Assembly;
 use super::super::super::tables::put;
+use super::super::nodes::UNKNOWN;
 use super::{filled, require, scalar};
 use crate::input::declaration::Name;
 use crate::input::source::Written;
@@ -58,7 +59,7 @@ impl Assembly<'_> {
     fn node_row(&mut self, row: &Row, columns: &Columns) {
         let name = Name { text: row.field(columns.name).to_owned(), place: row.place(columns.name) };
         let position = self.node_position(row, columns, &name);
-        let Some(node) = self.node(&name, position.unwrap_or([Dimension::Constant(0.0); 3])) else { return };
+        let Some(node) = self.node(&name, position.unwrap_or(UNKNOWN)) else { return };
         for &(at, column) in &columns.data {
             put(&mut self.building.node_data, &mut self.findings, row, at, column, node as usize);
         }

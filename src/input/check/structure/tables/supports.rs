@@ -3,8 +3,10 @@
 use super::super::super::Assembly;
 use super::{filled, find, refuse_others, require, scalar};
 use crate::input::declaration::Name;
+use crate::input::declaration::structure::Fix;
 use crate::input::source::Written;
 use crate::input::table::{Row, Table, Tables};
+use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::DIRECTIONS;
 
 /// Stiffness of springs, by direction.
@@ -62,6 +64,10 @@ impl Assembly<'_> {
 
     /// `x z`: directions with blanks between.
     fn listed_directions(&mut self, row: &Row, at: usize) -> [bool; 6] {
+        let text = row.field(at);
+        if did_you_mean(text, ["fixed", "pinned"].into_iter()).is_some() {
+            return self.fixed(&Fix::Word(row.written(at)));
+        }
         let list: Vec<Written> = row
             .field(at)
             .split_whitespace()
