@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::chunked_evaluation::Chunks;
 use super::components::{ComponentView, Components, Members};
 use super::elements::{Group, Label};
-use super::{EvaluationError, Meta, Model, Own};
+use super::{EvaluationError, Meta, Model, Names, Own};
 use crate::problem::Problem;
 
 /// An affine function: constant and coefficients, one per variable at the most.
@@ -61,7 +61,7 @@ pub struct RibModel {
     /// Elements of the rows, by kernel.
     pub(super) row_groups: Vec<Group>,
     /// Which declaration and which item each row comes from.
-    pub(super) row_origin: Vec<RowOrigin>,
+    pub(super) row_origin: Arc<[RowOrigin]>,
     /// The components, once somebody asked.
     pub(super) members: OnceLock<Option<Members>>,
     /// How a large model is evaluated side by side, once somebody asked.
@@ -75,6 +75,28 @@ pub struct RowOrigin {
     pub constraint: u32,
     /// Which of its items, counted as its scope lists them.
     pub item: u32,
+}
+
+/// A problem's variables, and rows by the constraint and the item each comes from.
+pub(super) struct ProblemNames {
+    pub problem: Arc<Problem>,
+    pub row_origin: Arc<[RowOrigin]>,
+}
+
+impl Names for ProblemNames {
+    fn variable(&self, j: usize) -> String {
+        self.problem.variable_name(j)
+    }
+
+    fn row(&self, i: usize) -> String {
+        let RowOrigin { constraint, item } = self.row_origin[i];
+        self.problem.row_name(constraint as usize, item as usize)
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        let constraint = self.row_origin.get(i)?.constraint as usize;
+        self.problem.constraints.get(constraint).map(|constraint| constraint.place.clone())
+    }
 }
 
 impl RibModel {
@@ -101,7 +123,10 @@ impl RibModel {
 
     fn invalid(&self, groups: &[Group], x: &[f64], fallback: &str) -> EvaluationError {
         if let Some(j) = x.iter().position(|value| !value.is_finite()) {
-            return EvaluationError::Invalid { term: self.variable_name(j), cause: format!("the variable itself is {}", x[j]) };
+            return EvaluationError::Invalid {
+                term: self.meta.names.variable(j),
+                cause: format!("the variable itself is {}", x[j]),
+            };
         }
         let (term, cause) = match groups.iter().find_map(|group| group.explain(x)) {
             Some((label, cause)) => (self.describe(label), cause),
@@ -114,7 +139,7 @@ impl RibModel {
         match label {
             Label::Objective => format!("objective {}", self.problem.objective_text),
             Label::RibVolume(rib) => format!("volume of rib {}", &self.problem.ribs.names[rib as usize]),
-            Label::Row(row) => format!("row {}", self.row_name(row as usize)),
+            Label::Row(row) => format!("row {}", self.meta.names.row(row as usize)),
         }
     }
 }
@@ -232,19 +257,5 @@ impl Model for RibModel {
     fn components(&self) -> Option<Box<dyn Components + '_>> {
         let members = self.members.get_or_init(|| Members::of(self)).as_ref()?;
         Some(Box::new(ComponentView { model: self, members }))
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.problem.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        let RowOrigin { constraint, item } = self.row_origin[i];
-        self.problem.row_name(constraint as usize, item as usize)
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        let constraint = self.row_origin.get(i)?.constraint as usize;
-        self.problem.constraints.get(constraint).map(|constraint| constraint.place.clone())
     }
 }

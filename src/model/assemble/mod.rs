@@ -32,8 +32,8 @@ use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
-use super::assembled::{Affine, RibModel, RowOrigin};
-use super::{Meta, Model, Pattern};
+use super::assembled::{Affine, ProblemNames, RibModel, RowOrigin};
+use super::{Meta, Model, NameTable, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 use accumulate::{Summation, Templates};
@@ -231,6 +231,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         group.connect(&jacobian, &hessian);
     }
     let linear_jacobian = scattered(&rows.affine, &jacobian);
+    let row_origin: Arc<[RowOrigin]> = rows.origin.into();
     let meta = Meta {
         lower: problem.variables.lower.clone(),
         upper: problem.variables.upper.clone(),
@@ -242,6 +243,8 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         objective_is_linear: objective_groups.is_empty(),
         jacobian,
         hessian,
+        names: NameTable::new(ProblemNames { problem: Arc::clone(problem), row_origin: Arc::clone(&row_origin) }),
+        ..Meta::default()
     };
     RibModel {
         problem: Arc::clone(problem),
@@ -251,7 +254,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         linear_jacobian,
         objective_groups,
         row_groups,
-        row_origin: rows.origin,
+        row_origin,
         members: OnceLock::new(),
         chunks: OnceLock::new(),
     }

@@ -6,14 +6,10 @@ use super::local::ComponentView;
 use super::members;
 use crate::model::assembled::Affine;
 use crate::model::elements::Group;
-use crate::model::{EvaluationError, Meta, Model, Pattern, RibModel};
+use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern, RibModel};
 
-/// A component; names are the parent's.
-pub(super) struct Submodel {
-    inner: RibModel,
-    /// The parent's number of each variable.
-    variables: Vec<u32>,
-}
+/// A component; names are the parent's. Nothing of it is auxiliary, and it decomposes no further.
+pub(super) struct Submodel(RibModel);
 
 impl Submodel {
     /// Component k.
@@ -46,13 +42,15 @@ impl Submodel {
                 objective_is_linear: objective_groups.is_empty(),
                 jacobian,
                 hessian,
+                names: meta.names.selected(variables.to_vec(), rows.to_vec()),
+                ..Meta::default()
             },
             objective_groups,
             row_groups,
             members: OnceLock::new(),
             chunks: OnceLock::new(),
         };
-        Submodel { inner, variables: variables.to_vec() }
+        Submodel(inner)
     }
 }
 
@@ -92,34 +90,10 @@ fn copied(view: ComponentView<'_>, k: usize, jacobian: &Pattern, hessian: &Patte
 
 impl Model for Submodel {
     fn meta(&self) -> &Meta {
-        &self.inner.meta
+        &self.0.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.inner.objective(x)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.inner.gradient(x, gradient)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.constraints(x, values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.jacobian(x, values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.hessian(x, weight, y, values)
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.inner.variable_name(self.variables[j] as usize)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.inner.row_name(i)
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        self.0.at(x)
     }
 }
