@@ -3,6 +3,7 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+mod affine;
 mod assemble;
 mod assembled;
 mod chunked_evaluation;
@@ -11,9 +12,11 @@ pub mod closures;
 pub mod components;
 pub mod derivative_check;
 pub mod domain;
+mod element_model;
 mod elements;
 mod evaluation;
 pub mod evaluator;
+mod formulate;
 mod names;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -28,6 +31,7 @@ pub use class::Class;
 pub use components::Components;
 pub use evaluation::Evaluation;
 pub use evaluator::{Budget, Evaluator};
+pub use formulate::{Formulation, formulate};
 pub use names::{NameTable, Names};
 pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};
 
@@ -231,4 +235,9 @@ pub enum Stop {
     /// Ctrl-C
     #[error("interrupted")]
     Interrupted,
+}
+
+/// Looked at in blocks without a way out, so that the compiler uses vector instructions.
+fn all_finite(values: &[f64]) -> bool {
+    values.chunks(64).all(|block| block.iter().fold(true, |finite, value| finite & value.is_finite()))
 }

@@ -16,6 +16,16 @@ pub trait Names: Send + Sync {
         format!("c{}", i + 1)
     }
 
+    /// What the objective is called.
+    fn objective(&self) -> String {
+        "objective".into()
+    }
+
+    /// What the volume of a rib is called, where the objective has such terms.
+    fn rib_volume(&self, rib: usize) -> String {
+        format!("volume of rib {}", rib + 1)
+    }
+
     /// Where row i is declared, ready to print (`file.toml:12`), where that is known.
     fn row_place(&self, _i: usize) -> Option<String> {
         None
@@ -45,6 +55,16 @@ impl NameTable {
     /// The name of row i.
     pub fn row(&self, i: usize) -> String {
         self.0.row(i)
+    }
+
+    /// What the objective is called.
+    pub fn objective(&self) -> String {
+        self.0.objective()
+    }
+
+    /// What the volume of a rib is called.
+    pub fn rib_volume(&self, rib: usize) -> String {
+        self.0.rib_volume(rib)
     }
 
     /// Where row i is declared, where that is known.
@@ -83,6 +103,14 @@ impl Names for Selected {
 
     fn row(&self, i: usize) -> String {
         self.of.row(self.rows[i] as usize)
+    }
+
+    fn objective(&self) -> String {
+        self.of.objective()
+    }
+
+    fn rib_volume(&self, rib: usize) -> String {
+        self.of.rib_volume(rib)
     }
 
     fn row_place(&self, i: usize) -> Option<String> {

@@ -7,7 +7,7 @@ use super::kernel_groups::{Groups, Kernels};
 use super::template::{Target, Template};
 use super::walk::{Piece, Sink, Work};
 use crate::expression::tape::TapeError;
-use crate::model::assembled::Affine;
+use crate::model::affine::Affine;
 use crate::model::elements::Label;
 use crate::problem::formula::End;
 use crate::problem::{Dimension, Problem};
