@@ -125,7 +125,6 @@ impl Battery {
         let bound = |side: usize| (0..n).map(|j| if j < shape.free { shape.bounds[side] } else { 1.0 }).collect::<Vec<_>>();
         let lower_limit = |i: usize| if i < shape.equalities { 0.0 } else { f64::NEG_INFINITY };
         let meta = Meta {
-            states: None,
             lower: bound(0),
             upper: bound(1),
             start: (0..n).map(|j| if j < shape.free { 0.5f64.clamp(shape.bounds[0], shape.bounds[1]) } else { 1.0 }).collect(),
@@ -136,7 +135,7 @@ impl Battery {
             objective_is_linear: false,
             jacobian: Pattern::from_positions(m, &mut positions),
             hessian: Pattern::from_positions(n, &mut Vec::new()),
-            states: None,
+            ..Meta::default()
         };
         let coefficient = |at: usize| match shape.values {
             Values::Dependent => (1 + at / n) as f64,

@@ -1,4 +1,4 @@
-//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (SPEC §4).
+//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (docs/certificate.md).
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
 use super::views::reduced::{Factors, Stiffness};
-use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble, auxiliaries};
+use super::{AssemblyError, EvaluationError, Meta, Model, NameTable, Names, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
 use crate::problem::structure::{Action, DIRECTIONS, Structure};
@@ -78,7 +78,9 @@ impl Lifted {
         let mut maps = Maps::default();
         deformations(structure, statics, &numbering, &mut maps);
         let (known, limits) = equations::outputs(&forces, structure, statics, &numbering, &mut maps);
-        let meta = outer_meta(rows.meta(), states, &limits);
+        let names =
+            LiftedNames { own: rows.meta().names.clone(), problem: Arc::clone(problem), states, directions: directions.clone() };
+        let meta = Meta { names: NameTable::new(names), ..outer_meta(rows.meta(), states, &limits) };
         let of_forces =
             Meta { row_lower: vec![0.0; maps.outputs.len()], row_upper: vec![0.0; maps.outputs.len()], ..meta.clone() };
         let own_rows = known.len();
@@ -129,12 +131,50 @@ impl Lifted {
     pub fn inner(&self) -> &RibModel {
         self.model.second()
     }
+}
 
-    fn state_name(&self, at: usize) -> String {
+/// The user's names, then those of the states and their equations.
+struct LiftedNames {
+    own: NameTable,
+    problem: Arc<Problem>,
+    states: States,
+    directions: Vec<(u32, u8)>,
+}
+
+impl LiftedNames {
+    fn state(&self, at: usize) -> String {
         let structure = prepared(&self.problem).0;
         let (node, direction) = self.directions[at % self.states.block];
         let case = &structure.cases[at / self.states.block];
         format!("{case}, {}, {}", &structure.nodes.names[node as usize], DIRECTIONS[usize::from(direction)])
+    }
+}
+
+impl Names for LiftedNames {
+    fn variable(&self, j: usize) -> String {
+        match j.checked_sub(self.states.first_variable) {
+            None => self.problem.variable_name(j),
+            Some(at) => format!("displacement[{}]", self.state(at)),
+        }
+    }
+
+    fn row(&self, i: usize) -> String {
+        match i.checked_sub(self.states.first_row) {
+            None => self.own.row(i),
+            Some(at) => format!("equilibrium[{}]", self.state(at)),
+        }
+    }
+
+    fn objective(&self) -> String {
+        self.own.objective()
+    }
+
+    fn rib_volume(&self, rib: usize) -> String {
+        self.own.rib_volume(rib)
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        if i < self.states.first_row { self.own.row_place(i) } else { None }
     }
 }
 
@@ -330,24 +370,6 @@ impl Model for Lifted {
         if let Some((list, first)) = self.auxiliaries() {
             auxiliaries::complete(self, list, first, n, x);
         }
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        match j.checked_sub(self.states.first_variable) {
-            None => self.problem.variable_name(j),
-            Some(at) => format!("displacement[{}]", self.state_name(at)),
-        }
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        match i.checked_sub(self.states.first_row) {
-            None => self.inner().row_name(i),
-            Some(at) => format!("equilibrium[{}]", self.state_name(at)),
-        }
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        if i < self.states.first_row { self.inner().row_place(i) } else { None }
     }
 }
 

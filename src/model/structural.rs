@@ -44,6 +44,14 @@ impl Assembled {
         }
     }
 
+    /// The structure's analysis, where there is any.
+    pub fn analysis(&self) -> Option<&Reduced<Lifted>> {
+        match self {
+            Assembled::Structure(model) => Some(model),
+            Assembled::Ribs(_) => None,
+        }
+    }
+
     /// The declaration.
     pub fn problem(&self) -> &Arc<Problem> {
         match self {

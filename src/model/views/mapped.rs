@@ -222,10 +222,6 @@ impl<M: Model> Model for Mapped<M> {
         self.hessian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
         Ok(())
     }
-
-    fn row_name(&self, i: usize) -> String {
-        self.inner.row_name(i)
-    }
 }
 
 #[cfg(test)]

@@ -48,6 +48,8 @@ impl<M: WithStates> Reduced<M> {
             row_upper: own.row_upper[..m].to_vec(),
             row_is_linear: (0..m).map(|row| own.is_row_linear(row) && knows_no_state(own, row, n)).collect(),
             objective_is_linear: own.objective_is_linear,
+            names: own.names.clone(),
+            extra_work: ((states.block * states.blocks) as f64).powf(1.5),
             jacobian: if derivatives { jacobian_pattern(own, states) } else { Pattern::from_positions(m, &mut Vec::new()) },
             hessian: if derivatives { dense_lower(n) } else { Pattern::from_positions(n, &mut Vec::new()) },
             ..Meta::default()
@@ -300,17 +302,5 @@ impl<M: WithStates> Model for Reduced<M> {
         if let Some((list, first)) = self.lifted.auxiliaries() {
             auxiliaries::complete(self, list, first, x.len(), x);
         }
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.lifted.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.lifted.row_name(i)
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        self.lifted.row_place(i)
     }
 }

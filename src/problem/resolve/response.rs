@@ -158,6 +158,13 @@ impl<'a> Resolver<'a, '_> {
                 if name == "stress" {
                     return Some(stress);
                 }
+                if let Some(&without) =
+                    forms.iter().find(|&&form| sections::kind_of(form).points(sections::form(form)).shear.is_empty())
+                {
+                    let kind = sections::kind_of(without).name();
+                    let message = format!("sections of kind {kind} know no shear stresses, and `vonmises` needs them");
+                    return self.mistake(arguments.span, message, Some("limit stress(…) instead, or choose another kind".into()));
+                }
                 self.report.open.sign = true;
                 let sign = if self.world.chosen.sign == 0.0 { 1.0 } else { self.world.chosen.sign };
                 let shear = one(rib, What::Shear(station, point, sign));

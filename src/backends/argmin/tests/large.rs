@@ -29,10 +29,9 @@ impl Chain {
                 row_upper: vec![f64::INFINITY; n - 1],
                 row_is_linear: vec![false; n - 1],
                 objective_is_linear: false,
-                states: None,
                 jacobian: Pattern::from_positions(n - 1, &mut rows),
                 hessian: Pattern::from_positions(n, &mut lower),
-                states: None,
+                ..Meta::default()
             },
         }
     }
