@@ -21,10 +21,11 @@ const CORRECTIONS: usize = 8;
 /// Directions followed at the most, and the sum of orders of the systems solved for them.
 const DIRECTIONS: usize = 24;
 const WORK: usize = 20_000;
-/// An inflection with the third derivative r that hides within the accepted slope, ½r·δ² ≤ optimality at the distance δ, shows the
-/// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
-/// off than κ·step = NEAR·optimality is another valley's.
+/// An inflection with the third derivative r at the distance δ shows the curvature κ = r·δ and the slope s = ½r·δ², and falls from
+/// the distance 3δ on: there κ·step = 6·s. As steps grow 3⅓-fold, a fall farther off than κ·step = NEAR·(s + ROUNDED), both in units
+/// of σ, is another valley's.
 const NEAR: f64 = 20.0;
+const ROUNDED: f64 = 1e-8;
 /// Limits nearer than this are left or kept by a step, and corrections do not run against them.
 const BESIDE: f64 = 1e-3;
 /// Rounding of the objective and of rows on their limits, in units of σ.
@@ -134,7 +135,8 @@ impl<'w, 'p> Walk<'w, 'p> {
     fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
-        for step in STEPS.into_iter().take_while(|step| curvature * step <= NEAR * self.tolerances.optimality) {
+        let slope = self.slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs() / point.scale();
+        for step in STEPS.into_iter().take_while(|step| curvature * step <= NEAR * (slope + ROUNDED)) {
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
             let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
