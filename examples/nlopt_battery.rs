@@ -21,7 +21,7 @@ enum Values {
     Plain,
     /// Every row a multiple of one.
     Dependent,
-    /// Equalities without a common solution.
+    /// Rows without a common solution.
     Inconsistent,
     /// Gradients that are zero everywhere.
     ZeroGradients,
@@ -82,29 +82,31 @@ fn sizes(n: usize) -> Vec<Shape> {
         };
         all.push(Shape::new(&class, n, 0, equalities));
         all.push(Shape::new(&class, n, n + 1, equalities));
-        all.push(Shape { bounds: OPEN, ..Shape::new(&class, n, 0, equalities) });
+        all.push(Shape { bounds: OPEN, ..Shape::new("m_eq <= n + 8, no bounds", n, 0, equalities) });
     }
     all
 }
 
 fn oddities(n: usize) -> Vec<Shape> {
-    let odd = |class: &str, values: Values| Shape { values, ..Shape::new(class, n, n + 1, n.min(2)) };
-    let mut all = vec![
-        odd("dependent rows", Values::Dependent),
-        odd("inconsistent equalities", Values::Inconsistent),
-        odd("zero gradients", Values::ZeroGradients),
-        odd("no numbers beside the start", Values::NotANumber),
-        Shape { fixed: n + 6, ..Shape::new("fixed variables, m_eq = n + 6", n, 2, n + 6) },
-        Shape { fixed: n, ..Shape::new("all variables fixed", 0, 2, n) },
-    ];
-    all.extend(
-        [1e-320, 1e-150, 1e99, 1e101, 1e200, 1e307].map(|size| odd(&format!("numbers of {size:.0e}"), Values::Magnitude(size))),
-    );
+    let fixed = |fixed: usize, free: usize, class: &str| Shape { fixed, ..Shape::new(class, free, 2, fixed) };
+    let mut all = vec![fixed(n + 6, n, "fixed variables, m_eq = n + 6"), fixed(n, 0, "all variables fixed")];
+    let mut odd = |class: &str, values: Values, bounds: [f64; 2]| {
+        for (rows, m, m_eq) in [("equalities", n + 1, n.min(2)), ("inequalities", n + 1, 0), ("no rows", 0, 0)] {
+            all.push(Shape { values, bounds, ..Shape::new(&format!("{class}, {rows}"), n, m, m_eq) });
+        }
+    };
+    odd("dependent rows", Values::Dependent, BOUNDS);
+    odd("inconsistent rows", Values::Inconsistent, BOUNDS);
+    odd("zero gradients", Values::ZeroGradients, BOUNDS);
+    odd("no numbers beside the start", Values::NotANumber, BOUNDS);
+    for size in [1e-320, 1e-150, 1e99, 1e101, 1e200, 1e307] {
+        odd(&format!("numbers of {size:.0e}"), Values::Magnitude(size), BOUNDS);
+    }
+    let half_open = [-2.0, f64::INFINITY];
     for (class, bounds) in
-        [("open", OPEN), ("half open", [-2.0, f64::INFINITY]), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])]
+        [("open", OPEN), ("half open", half_open), ("of 1e300", [-1e300, 1e300]), ("1e-310 apart", [0.0, 1e-310])]
     {
-        all.push(Shape { bounds, ..Shape::new(&format!("bounds {class}, rows"), n, 2, 1) });
-        all.push(Shape { bounds, ..Shape::new(&format!("bounds {class}, no rows"), n, 0, 0) });
+        odd(&format!("bounds {class}"), Values::Plain, bounds);
     }
     all
 }
@@ -112,7 +114,6 @@ fn oddities(n: usize) -> Vec<Shape> {
 struct Battery {
     meta: Meta,
     values: Values,
-    equalities: usize,
     /// Row by row.
     coefficients: Vec<f64>,
 }
@@ -136,11 +137,12 @@ impl Battery {
             hessian: Pattern::from_positions(n, &mut Vec::new()),
         };
         let coefficient = |at: usize| match shape.values {
-            Values::Dependent | Values::Inconsistent => (1 + at / n) as f64,
+            Values::Dependent => (1 + at / n) as f64,
+            Values::Inconsistent => (1 + at / n) as f64 * if (at / n).is_multiple_of(2) { 1.0 } else { -1.0 },
             _ => ((at * 7919 + 13) % 101) as f64 / 50.0 - 1.0,
         };
         let coefficients = (0..m * n).map(coefficient).collect();
-        Battery { meta, values: shape.values, equalities: shape.equalities, coefficients }
+        Battery { meta, values: shape.values, coefficients }
     }
 
     fn unit(&self) -> f64 {
@@ -181,7 +183,7 @@ impl Model for Battery {
         for (i, (value, line)) in values.iter_mut().zip(self.coefficients.chunks(x.len())).enumerate() {
             let linear: f64 = line.iter().zip(x).map(|(a, x)| a * (x - 1.0)).sum();
             let bend = if self.meta.row_is_linear[i] { 0.0 } else { 0.1 * (x[0] - 1.0).powi(2) };
-            let shift = if self.values == Values::Inconsistent && i < self.equalities { i as f64 } else { 0.0 };
+            let shift = if self.values == Values::Inconsistent { i as f64 } else { 0.0 };
             *value = self.unit() * (self.slope() * (linear + bend) + shift);
         }
         Ok(())

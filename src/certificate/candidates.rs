@@ -20,6 +20,13 @@ pub(super) struct Candidate {
     pub(super) distance: f64,
 }
 
+impl Candidate {
+    /// Whether its multiplier may have this sign.
+    pub(super) fn carries(&self, multiplier: f64) -> bool {
+        self.sign == 0.0 || self.sign * multiplier > 0.0
+    }
+}
+
 /// Scaled distances beyond this cannot carry a multiplier that matters: with complementarity within 1e−6 it would be below 1e−3.
 const REACH: f64 = 1e-3;
 

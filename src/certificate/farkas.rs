@@ -5,6 +5,7 @@
 //! s = Σ y_i ∇c_i(x), contradicts that: no such v exists. Whoever offers y proves nothing; the sums do, rounded outwards.
 
 use super::point::{Origin, Point};
+use super::scales;
 use crate::model::{EvaluationError, Model};
 
 /// Variables are followed this many times their size from x, open or not: the rows' terms then are so large that the constraint
@@ -63,11 +64,8 @@ struct Rows<'p, 'a> {
 
 impl<'p, 'a> Rows<'p, 'a> {
     fn new(point: &'p Point<'a>, convex: bool) -> Self {
-        let meta = point.meta();
-        let term = |at: usize| (point.jacobian[at] * point.x[meta.jacobian.columns[at] as usize]).abs();
-        let limit = |i: usize| [meta.row_lower[i], meta.row_upper[i]].into_iter().filter(|l| l.is_finite());
-        let terms = (0..meta.rows())
-            .map(|i| meta.jacobian.range(i).map(term).chain(limit(i).map(f64::abs)).fold(f64::MIN_POSITIVE, f64::max));
+        let term = |i: usize| point.terms[i].max(scales::largest_limit(point.meta(), i)).max(f64::MIN_POSITIVE);
+        let terms = (0..point.rows.len()).map(term);
         let size = point.x.iter().map(|x| if *x == 0.0 { 1.0 } else { x.abs() }).collect();
         Rows { point, convex, size, terms: terms.collect() }
     }
@@ -76,7 +74,7 @@ impl<'p, 'a> Rows<'p, 'a> {
     fn usable(&self, y: &[f64]) -> Vec<f64> {
         let meta = self.point.meta();
         let keep = |(i, &y): (usize, &f64)| {
-            let counts = self.convex || meta.row_is_linear.get(i).copied().unwrap_or(false);
+            let counts = self.convex || meta.is_row_linear(i);
             if counts && y.is_finite() && self.point.row_limit(i, y).is_finite() { y } else { 0.0 }
         };
         y.iter().enumerate().map(keep).collect()

@@ -58,18 +58,29 @@ fn distance_to_feasible(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     if !bounds_are_met || !(0..point.rows.len()).all(is_near) {
         return None;
     }
-    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
-    let mut x: Vec<f64> =
-        point.x.iter().zip(&point.sizes).map(|(&x, d)| if x.abs() <= tolerance * d { 0.0 } else { x }).collect();
+    let without_rounding = |(&x, d): (&f64, &f64)| if x.abs() <= tolerance * d { 0.0 } else { x };
+    let mut x: Vec<f64> = point.x.iter().zip(&point.sizes).map(without_rounding).collect();
     point.meta().clamp(&mut x);
+    let x = way_back(point, x, tolerance, &|at| worst_violation(at).1 <= tolerance)?;
+    Some(distance(point, &x))
+}
+
+/// max_j |x_j − point_j|/d_j
+fn distance(point: &Point<'_>, x: &[f64]) -> f64 {
+    x.iter().zip(point.x).zip(&point.sizes).fold(0.0, |most: f64, ((a, b), d)| most.max((a - b).abs() / d))
+}
+
+/// Newton steps from x back to the rows it violates, to the first place that has `arrived`; `None` where that is no place within
+/// `reach` of the point.
+fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Point<'_>) -> bool) -> Option<Vec<f64>> {
+    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
     for _ in 0..=STEPS {
-        let distance = x.iter().zip(point.x).zip(&point.sizes).fold(0.0, |most: f64, ((a, b), d)| most.max((a - b).abs() / d));
-        if distance > tolerance {
+        if distance(point, &x) > reach {
             return None;
         }
         let at = Point::new(point.origin, &x).ok()?;
-        if worst_violation(&at).1 <= tolerance {
-            return Some(distance);
+        if arrived(&at) {
+            return Some(x);
         }
         x = step_back(&at, &violated)?;
     }
@@ -89,21 +100,10 @@ fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     if worst <= tolerance {
         return None;
     }
-    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
-    let beside = |x: &[f64]| x.iter().zip(point.x).zip(&point.sizes).all(|((a, b), d)| (a - b).abs() <= BESIDE * d);
-    let mut x = point.x.to_vec();
-    for _ in 0..STEPS {
-        let Some(next) = Point::new(point.origin, &x).ok().and_then(|at| step_back(&at, &violated)) else { return Some(worst) };
-        x = next;
-        let Ok(moved) = Point::new(point.origin, &x) else { return Some(worst) };
-        if !beside(&x) {
-            return Some(worst);
-        }
-        if self::worst(&moved, &near) <= tolerance {
-            return None;
-        }
+    match way_back(point, point.x.to_vec(), BESIDE, &|at| self::worst(at, &near) <= tolerance) {
+        Some(_) => None,
+        None => Some(worst),
     }
-    Some(worst)
 }
 
 /// The variables' sizes with those far away held back.
@@ -153,7 +153,7 @@ pub(super) fn step_back(point: &Point<'_>, wanted: &dyn Fn(&Point<'_>, usize) ->
 fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64>> {
     let mut kkt = Kkt::without_hessian(point, free, held).ok()?;
     kkt.factor_projection().ok()?;
-    let lack = |(k, &i): (usize, &usize)| (nearest_limit(point, i) - point.rows[i]) / kkt.slope(k);
+    let lack = |(k, &i): (usize, &usize)| (point.nearest_limit(i) - point.rows[i]) / kkt.slope(k);
     let right: Vec<f64> = std::iter::repeat_n(0.0, free.len()).chain(held.iter().enumerate().map(lack)).collect();
     let step = kkt.solve(&right).ok()?;
     let mut x = point.x.to_vec();
@@ -161,9 +161,4 @@ fn shortest(point: &Point<'_>, free: &[usize], held: &[usize]) -> Option<Vec<f64
         x[j] += step * point.sizes[j];
     }
     Some(x)
-}
-
-fn nearest_limit(point: &Point<'_>, i: usize) -> f64 {
-    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
-    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
 }

@@ -37,6 +37,10 @@ pub use types::{Certificate, Scope, Side, Tolerances};
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
 const REFINABLE: f64 = 1e-2;
 
+/// The slope about a point counts up to so many times that at the point, which makes every direction there a flat one: a function
+/// as steep as x⁶⁰ has any slope about it.
+const PROPORTION: f64 = 1e3;
+
 /// Certifies `x`. `guess`, a solver's row multipliers, is a witness: tried first, and worth what the residuals computed from it
 /// say.
 ///
@@ -140,7 +144,9 @@ impl<'a> Certifier<'a> {
         let found = multipliers::find(point, witness);
         let mut certificate = self.first_order(point, &found, feasibility);
         if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
-            point.look_about();
+            // Without second derivatives the slope alone has to do.
+            point.add_curvature().unwrap_or_default();
+            point.relies_on_curvature = true;
             certificate = self.first_order(point, &found, feasibility);
         }
         (found, certificate)
@@ -240,9 +246,16 @@ impl<'a> Certifier<'a> {
         if self.class.is_global() {
             return Hessian::of(point, multipliers);
         }
-        point.look_about();
-        let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
-        point.resize_by_curvature(|j| diagonal[j]);
+        point.add_curvature()?;
+        let (about, scale) = (point.slope_about(), point.scale());
+        if about > 0.0 && (0..point.x.len()).any(|j| point.is_size_known_otherwise(j)) {
+            let diagonal = Hessian::of(point, multipliers)?.diagonal(point);
+            point.resize_by_curvature(|j| diagonal[j] * scale, about);
+            point.add_curvature()?;
+        }
+        // Beside an inflection the curvature is as small as the slope: what is steep about the point shows how flat that is.
+        let most = if point.sigma > 0.0 { PROPORTION * point.sigma } else { f64::INFINITY };
+        point.sigma = point.sigma.max(about.min(most));
         Hessian::of(point, multipliers)
     }
 
@@ -294,8 +307,9 @@ fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[
     }
     let rest = point.row_gradient(&multipliers.rows);
     let slope = |j: usize| {
-        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j] / point.sigma).abs();
-        (slope - rounding.map_or(0.0, |rounding| rounding[j])).max(0.0)
+        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j]).abs();
+        let explained = rounding.map_or(0.0, |rounding| rounding[j] * point.sigma);
+        (slope - explained).max(0.0) / point.scale_of(j)
     };
     (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
 }

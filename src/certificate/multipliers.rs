@@ -26,8 +26,7 @@ pub(super) fn from_witness(point: &Point<'_>, witness: &[f64]) -> Option<Multipl
     }
     let usable = |i: usize| {
         let y = witness[i];
-        let carries = |candidate: Candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0;
-        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(carries) { y } else { 0.0 }
+        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(|candidate| candidate.carries(y)) { y } else { 0.0 }
     };
     let rows: Vec<f64> = (0..witness.len()).map(usable).collect();
     let bounds = bound_multipliers(point, &point.row_gradient(&rows));
@@ -41,17 +40,13 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
     let mut centre = Vec::new();
     let scale = point.scale();
     for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
-        let candidate = candidates::row(point, i).find(|candidate| candidate.sign == 0.0 || candidate.sign * y > 0.0)?;
-        let pattern = &point.meta().jacobian;
-        let entry = |at: usize| {
-            let j = pattern.columns[at];
-            (j, point.jacobian[at] * point.sizes[j as usize] / point.slopes[i])
-        };
-        system.push(candidate, pattern.range(i).map(entry).filter(|entry| entry.1 != 0.0));
+        let candidate = candidates::row(point, i).find(|candidate| candidate.carries(y))?;
+        let entries = point.row_in_sizes(i).map(|(j, entry)| (j as u32, entry));
+        system.push(candidate, entries.filter(|entry| entry.1 != 0.0));
         centre.push(y * point.slopes[i] / scale);
     }
     for (j, &z) in multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-        let candidate = candidates::bounds(point, j).find(|candidate| candidate.sign == 0.0 || candidate.sign * z > 0.0)?;
+        let candidate = candidates::bounds(point, j).find(|candidate| candidate.carries(z))?;
         system.push(candidate, std::iter::once((j as u32, 1.0)));
         centre.push(z * point.sizes[j] / scale);
     }
@@ -221,15 +216,6 @@ impl Group<'_> {
         self.point.gradient[j] * self.point.sizes[j] / self.point.sigma
     }
 
-    /// The scaled gradient of row i: variables and entries.
-    fn gradient_of(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
-        let (point, pattern) = (self.point, &self.point.meta().jacobian);
-        pattern.range(i).map(move |at| {
-            let j = pattern.columns[at] as usize;
-            (j, point.jacobian[at] * point.sizes[j] / point.slopes[i])
-        })
-    }
-
     /// Adds a candidate's column; whether it starts out as free to move.
     fn add_column(&self, candidate: &Candidate, places: &[u32], entries: &mut Vec<(u32, f64)>) -> bool {
         let place = |j: usize| places[self.partition.place(j as u32) as usize];
@@ -239,7 +225,7 @@ impl Group<'_> {
                 true
             }
             Owner::Row(i) => {
-                let own = self.gradient_of(i).map(|(j, entry)| (place(j), entry));
+                let own = self.point.row_in_sizes(i).map(|(j, entry)| (place(j), entry));
                 entries.extend(own.filter(|&(at, entry)| at != OUT && entry != 0.0));
                 self.guess.and_then(|guess| guess.get(i)).is_none_or(|y| y * candidate.sign > 0.0)
             }
@@ -270,7 +256,7 @@ impl Group<'_> {
         let mut rest: Vec<f64> = variables.iter().map(|&j| self.slope(j as usize)).collect();
         for &(i, y) in found {
             let y = y * self.point.slopes[i] / self.point.sigma;
-            self.gradient_of(i).for_each(|(j, entry)| rest[self.partition.place(j as u32) as usize] += y * entry);
+            self.point.row_in_sizes(i).for_each(|(j, entry)| rest[self.partition.place(j as u32) as usize] += y * entry);
         }
         system.absorbing.iter().all(|bound| match bound.owner {
             Owner::Bound(j) => -rest[self.partition.place(j as u32) as usize] * bound.sign >= 0.0,

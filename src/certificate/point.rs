@@ -10,6 +10,8 @@ use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 /// Roundings that the value of a row may hold, in units of the sum of its terms.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
+/// Entries of a row below this share of its largest determine no multiplier.
+const SIGNIFICANT: f64 = 1e-2;
 /// A size is changed by this factor at the most: more would be a guess about rounding.
 const RESIZED: f64 = 1e8;
 /// Variables looked at for that, each for one gradient.
@@ -44,12 +46,17 @@ pub(super) struct Point<'a> {
     pub(super) sizes: Vec<f64>,
     /// d_j as it was before curvature had a say.
     plain_sizes: Vec<f64>,
-    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::look_about`].
+    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::add_curvature`].
     pub(super) sigma: f64,
+    /// ‖D∇f(x)‖∞, and Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k variable by variable where that has been looked at.
+    steepest: f64,
+    bends: Vec<f64>,
+    /// Only curvature makes the slope here a small one: in a tail that is deceptive.
+    pub(super) relies_on_curvature: bool,
     /// ‖D∇c_i(x)‖∞
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
-    terms: Vec<f64>,
+    pub(super) terms: Vec<f64>,
     /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
     mean_slopes: OnceLock<Option<Vec<f64>>>,
 }
@@ -68,31 +75,100 @@ impl<'a> Point<'a> {
         let sigma = largest(&gradient, &sizes);
         let slopes = slopes(meta, &jacobian, &sizes);
         let terms = scales::row_terms(meta, x, &jacobian);
-        let (plain_sizes, mean_slopes) = (Vec::new(), OnceLock::new());
-        Ok(Point { origin, x, objective, gradient, rows, jacobian, sizes, plain_sizes, sigma, slopes, terms, mean_slopes })
+        Ok(Point {
+            origin,
+            x,
+            objective,
+            gradient,
+            rows,
+            jacobian,
+            sizes,
+            plain_sizes: Vec::new(),
+            sigma,
+            steepest: sigma,
+            bends: Vec::new(),
+            relies_on_curvature: false,
+            slopes,
+            terms,
+            mean_slopes: OnceLock::new(),
+        })
     }
 
-    /// Where the objective is nearly stationary by itself, its slope at x measures nothing; that about x does.
-    pub(super) fn look_about(&mut self) {
-        self.sigma = self.sigma.max(scales::slope_about(self.origin, self.x, &self.sizes));
-    }
-
-    /// Variables whose size at x is only what is known of them otherwise get the size in which the Lagrangian's own curvature is
-    /// one, where it is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the
-    /// second derivative says. `bend(j)` is ∂²L/∂x_j²·d_j²/σ. Others keep theirs.
-    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64) {
-        self.plain_sizes.clone_from(&self.sizes);
-        let mut tried = 0;
-        for (j, size) in self.sizes.iter_mut().enumerate() {
-            let bend = bend(j).abs();
-            if self.x[j].abs() < *size && bend > 0.0 && bend.is_finite() && tried < RESIZABLE {
-                tried += 1;
-                if scales::is_quadratic(self.origin, self.x, (j, *size), bend * self.sigma / *size) {
-                    *size *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
-                }
+    /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes
+    /// does: max_j Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k, the slope one size away.
+    pub(super) fn add_curvature(&mut self) -> Result<(), EvaluationError> {
+        let meta = self.meta();
+        if meta.objective_is_linear || !self.bends.is_empty() {
+            return Ok(());
+        }
+        let mut values = vec![0.0; meta.hessian.len()];
+        self.origin.model.hessian(self.x, 1.0, &vec![0.0; meta.rows()], &mut values)?;
+        let mut slopes = vec![0.0; self.x.len()];
+        for ((row, column), value) in meta.hessian.iter().zip(values) {
+            let bend = (value * self.sizes[row] * self.sizes[column]).abs();
+            slopes[row] += bend;
+            if row != column {
+                slopes[column] += bend;
             }
         }
+        let steepest = slopes.iter().copied().fold(0.0, f64::max);
+        if steepest.is_finite() {
+            self.sigma = self.sigma.max(steepest);
+            self.bends = self.passed_on(&slopes);
+        }
+        Ok(())
+    }
+
+    /// What rows pass on from variable to variable: a multiplier is as uncertain as the slopes it balances, by d_k·∂c_i/∂x_k.
+    fn passed_on(&self, bends: &[f64]) -> Vec<f64> {
+        let (meta, mut all) = (self.meta(), bends.to_vec());
+        for i in 0..meta.rows() {
+            let entry = |at: usize| {
+                let j = meta.jacobian.columns[at] as usize;
+                (j, (self.jacobian[at] * self.sizes[j]).abs())
+            };
+            let significant = |&(_, slope): &(usize, f64)| slope > SIGNIFICANT * self.slopes[i];
+            let multiplier = meta.jacobian.range(i).map(entry).filter(significant).map(|(k, slope)| bends[k] / slope);
+            let multiplier = multiplier.fold(0.0, f64::max);
+            meta.jacobian.range(i).map(entry).for_each(|(j, slope)| all[j] = all[j].max(multiplier * slope));
+        }
+        all
+    }
+
+    /// What a slope along variable j is measured by: curvature counts for the variables that it bends alone, so that one whose
+    /// size is far off hides nothing of the others.
+    pub(super) fn scale_of(&self, j: usize) -> f64 {
+        let own = self.bends.get(j).map_or(self.sigma, |bend| bend.max(self.steepest));
+        if own > 0.0 { own } else { self.scale() }
+    }
+
+    /// How steep the objective is about x; see [`scales::slope_about`].
+    pub(super) fn slope_about(&self) -> f64 {
+        scales::slope_about(self.origin, self.x, &self.sizes)
+    }
+
+    /// Whether the size of variable j is not |x_j| but what is known of it otherwise.
+    pub(super) fn is_size_known_otherwise(&self, j: usize) -> bool {
+        self.x[j].abs() < self.sizes[j]
+    }
+
+    /// Variables whose size is known otherwise get the size in which the Lagrangian's own curvature is as large as `slope`, where it
+    /// is curvature that tells what a unit is: where over a step in that variable alone the slope changes as the second derivative
+    /// says. `bend(j)` is ∂²L/∂x_j²·d_j². Others keep theirs.
+    pub(super) fn resize_by_curvature(&mut self, bend: impl Fn(usize) -> f64, slope: f64) {
+        let bends = (0..self.x.len()).filter(|&j| self.is_size_known_otherwise(j)).map(|j| (j, bend(j).abs() / slope));
+        let bends = bends.filter(|&(_, bend)| bend > 0.0 && bend.is_finite()).take(RESIZABLE);
+        let tells = |&(j, bend): &(usize, f64)| scales::is_quadratic(self, j, bend * slope / self.sizes[j]);
+        let resized: Vec<(usize, f64)> = bends.filter(tells).collect();
+        if resized.is_empty() {
+            return;
+        }
+        self.plain_sizes.clone_from(&self.sizes);
+        for (j, bend) in resized {
+            self.sizes[j] *= bend.sqrt().recip().clamp(1.0 / RESIZED, RESIZED);
+        }
         self.slopes = slopes(self.meta(), &self.jacobian, &self.sizes);
+        self.bends.clear();
     }
 
     /// The variables' sizes whatever the curvature.
@@ -104,16 +180,9 @@ impl<'a> Point<'a> {
         self.origin.meta()
     }
 
-    /// ‖diag(sizes)·∇c_i‖∞: what the curvature test divides row i by.
-    pub(super) fn slope_in_sizes(&self, i: usize) -> f64 {
-        let pattern = &self.meta().jacobian;
-        let entry = |at: usize| (self.jacobian[at] * self.sizes[pattern.columns[at] as usize]).abs();
-        pattern.range(i).map(entry).fold(0.0, f64::max)
-    }
-
     /// Row i's gradient in these sizes, divided by its slope in them: (variable, entry).
     pub(super) fn row_in_sizes(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (pattern, slope) = (&self.meta().jacobian, self.slope_in_sizes(i));
+        let (pattern, slope) = (&self.meta().jacobian, self.slopes[i]);
         pattern.range(i).map(move |at| {
             let j = pattern.columns[at] as usize;
             (j, self.jacobian[at] * self.sizes[j] / slope)
@@ -139,6 +208,12 @@ impl<'a> Point<'a> {
         (violation / limit.abs().max(terms).max(f64::MIN_POSITIVE)).min(f64::MAX)
     }
 
+    /// The limit row i is nearest to.
+    pub(super) fn nearest_limit(&self, i: usize) -> f64 {
+        let (lower, upper, value) = (self.meta().row_lower[i], self.meta().row_upper[i], self.rows[i]);
+        if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
+    }
+
     /// By how much row i lies beyond the limit it violates, and that limit.
     pub(super) fn row_excess(&self, i: usize) -> (f64, f64) {
         let (value, lower, upper) = (self.rows[i], self.meta().row_lower[i], self.meta().row_upper[i]);
@@ -149,7 +224,7 @@ impl<'a> Point<'a> {
     /// the mean slope over a finite step.
     pub(super) fn row_term(&self, i: usize) -> f64 {
         let term = self.terms[i];
-        if term == 0.0 || self.meta().row_is_linear.get(i).copied().unwrap_or(false) {
+        if term == 0.0 || self.meta().is_row_linear(i) {
             return term;
         }
         let mean = self.mean_slopes.get_or_init(|| scales::mean_slopes(self.origin, self.x, &self.rows));

@@ -1,7 +1,7 @@
 //! What the linear rows say of the box: bounds tightened row by row until one row cannot be met (feasibility-based bound
 //! tightening). A contradiction found so is a theorem, wherever solvers end.
 
-use crate::model::{Meta, Model};
+use crate::model::Model;
 
 /// Sweeps over all rows at the most.
 const SWEEPS: usize = 10;
@@ -44,7 +44,7 @@ pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
 /// The linear rows; a row's constant is taken off its limits. `None` where the model has no value at its start.
 fn lines(model: &dyn Model) -> Option<Vec<Option<Line>>> {
     let meta = model.meta();
-    if !(0..meta.rows()).any(|i| is_linear(meta, i)) {
+    if !(0..meta.rows()).any(|i| meta.is_row_linear(i)) {
         return None;
     }
     let x = &meta.start;
@@ -59,11 +59,7 @@ fn lines(model: &dyn Model) -> Option<Vec<Option<Line>>> {
         let (constant, error) = (rows[i] - terms.iter().sum::<f64>(), (terms.len() + 4) as f64 * f64::EPSILON * magnitude);
         Line { entries, lower: meta.row_lower[i] - constant - error, upper: meta.row_upper[i] - constant + error }
     };
-    Some((0..meta.rows()).map(|i| is_linear(meta, i).then(|| line(i))).collect())
-}
-
-fn is_linear(meta: &Meta, i: usize) -> bool {
-    meta.row_is_linear.get(i).copied().unwrap_or(false)
+    Some((0..meta.rows()).map(|i| meta.is_row_linear(i).then(|| line(i))).collect())
 }
 
 enum Tightened {

@@ -38,7 +38,7 @@ pub(super) fn variables(
     let is_feasible =
         |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
     let held = |rows: Vec<usize>| -> Vec<(usize, f64)> {
-        rows.into_iter().map(|i| (i, resting_limit(point, i))).filter(|held| held.1.is_finite()).collect()
+        rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite()).collect()
     };
     let runs_off = |free: &[usize], held: &[(usize, f64)]| {
         let site = Site {
@@ -69,12 +69,6 @@ pub(super) fn variables(
     }
 }
 
-/// The limit row i is nearest to.
-fn resting_limit(point: &Point<'_>, i: usize) -> f64 {
-    let (lower, upper, value) = (point.meta().row_lower[i], point.meta().row_upper[i], point.rows[i]);
-    if (value - lower).abs() <= (value - upper).abs() { lower } else { upper }
-}
-
 /// The variables that take part in a direction.
 fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
     let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
@@ -90,7 +84,8 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
     let (mut found, mut axes) = (Vec::new(), Vec::new());
     if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
         let (free, held) = (choice.loose_variables(), choice.strict_rows());
-        let flat = Kkt::new(point, hessian, &free, &held).and_then(|mut kkt| kkt.flat_directions(DIRECTIONS, FLAT));
+        let flat = Kkt::new(point, hessian, &free, &held)
+            .and_then(|mut kkt| if kkt.is_flat(FLAT)? { kkt.flat_directions(DIRECTIONS, FLAT) } else { Ok(Vec::new()) });
         for direction in flat.unwrap_or_default() {
             let share = |j: &usize| (direction[*j] / point.sizes[*j]).abs();
             let mut open: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
@@ -98,7 +93,7 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
             axes.extend(open.into_iter().take(2));
             found.push(direction);
         }
-        if !found.is_empty() {
+        if !found.is_empty() || point.relies_on_curvature {
             found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
             found.push(point.x.to_vec());
         }

@@ -1,7 +1,7 @@
 //! What the certificate measures by (docs/certificate.md, «Measures»): sizes of variables, terms of rows, and how steep the
 //! objective is about a point. Nothing here looks at a start the program has invented, nor at values or derivatives at a start.
 
-use super::point::Origin;
+use super::point::{Origin, Point};
 use crate::model::{Meta, Model};
 
 /// Relative steps to places about a point, the first at which the model has a value is taken.
@@ -45,7 +45,8 @@ fn declared_size(meta: &Meta, j: usize) -> f64 {
     if within > 0.0 { given.min(within) } else { given }
 }
 
-fn largest_limit(meta: &Meta, i: usize) -> f64 {
+/// The larger magnitude of row i's finite limits; 0 where it has none.
+pub(super) fn largest_limit(meta: &Meta, i: usize) -> f64 {
     [meta.row_lower[i], meta.row_upper[i]]
         .into_iter()
         .filter(|limit| limit.is_finite())
@@ -96,16 +97,16 @@ pub(super) fn slope_about(origin: &Origin<'_>, x: &[f64], sizes: &[f64]) -> f64 
 
 /// Whether over a step of a tenth of its size in variable j alone ∂f/∂x_j changes by what a second derivative of this magnitude
 /// says, within a factor of two.
-pub(super) fn is_quadratic(origin: &Origin<'_>, x: &[f64], (j, size): (usize, f64), second: f64) -> bool {
-    let slope = |way: f64| {
-        let (mut there, mut gradient) = (x.to_vec(), vec![0.0; x.len()]);
-        there[j] += way;
-        origin.model.gradient(&there, &mut gradient).ok().map(|_| gradient[j])
-    };
+pub(super) fn is_quadratic(point: &Point<'_>, j: usize, second: f64) -> bool {
+    let size = point.sizes[j];
     let step = ABOUT[0] * size;
+    let (mut there, mut gradient) = (point.x.to_vec(), vec![0.0; point.x.len()]);
+    there[j] += step;
     let said = second * step / size;
-    let change = slope(step).zip(slope(0.0)).map(|(there, here)| (there - here).abs());
-    change.is_some_and(|change| change > 0.5 * said && change < 2.0 * said)
+    point.origin.model.gradient(&there, &mut gradient).is_ok_and(|_| {
+        let change = (gradient[j] - point.gradient[j]).abs();
+        change > 0.5 * said && change < 2.0 * said
+    })
 }
 
 /// x + way·u∘sizes, u in [½, 1] without a pattern, so that sums and differences of variables move, too. A variable that a bound

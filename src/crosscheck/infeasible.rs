@@ -51,7 +51,7 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
         return None;
     }
     let start = work.inward(near);
-    let linear: Vec<usize> = all.iter().copied().filter(|&i| meta.row_is_linear.get(i).copied().unwrap_or(false)).collect();
+    let linear: Vec<usize> = all.iter().copied().filter(|&i| meta.is_row_linear(i)).collect();
     if !work.is_global() && !linear.is_empty() && linear.len() < all.len() {
         let relaxed = work.relax(&linear, &start).map(|relaxed| work.in_own_scales(&linear, relaxed));
         let relaxed = relaxed.filter(|relaxed| known || work.is_contradiction(relaxed));

@@ -18,7 +18,8 @@ pub(super) fn certified(outcome: &mut Outcome) {
     for (k, answer) in outcome.answers.iter().enumerate() {
         if Some(k) != outcome.best && !answer.is_certified() {
             let how = if answer.solution.termination == Termination::Refused { "was not run" } else { "did not get there" };
-            message.push_str(&format!(" {} {how}: {}.", answer.backend, why(answer)));
+            let why = why(answer);
+            message.push_str(&format!(" {} {how}: {}.", answer.backend, why.trim_start_matches("not run: ")));
         }
     }
     let all_pass = outcome.answers.iter().all(|answer| answer.is_certified());

@@ -23,7 +23,7 @@ fn number(text: &str, word: &str) -> Option<u64> {
 /// A sentence with both numbers.
 ///
 /// ```
-/// assert!(ribopt::files::memory::fits(1).is_ok());
+/// assert!(ribopt::files::memory::fits(1.0).is_ok());
 /// ```
 pub fn fits(bytes: f64) -> Result<(), String> {
     match available() {

@@ -121,7 +121,7 @@ fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec
             .collect(),
         row_lower: chosen(&base.row_lower),
         row_upper: chosen(&base.row_upper),
-        row_is_linear: rows.iter().map(|&i| base.row_is_linear.get(i).copied().unwrap_or(false)).collect(),
+        row_is_linear: rows.iter().map(|&i| base.is_row_linear(i)).collect(),
         objective_is_linear: true,
         jacobian,
         hessian,

@@ -63,7 +63,7 @@ impl<'a> Freed<'a> {
             Limit::Bound(j, false) => meta.lower[j] = f64::NEG_INFINITY,
         }
         meta.objective_is_linear = match limit {
-            Limit::Row(i, _) => meta.row_is_linear.get(i).copied().unwrap_or(false),
+            Limit::Row(i, _) => meta.is_row_linear(i),
             Limit::Bound(..) => true,
         };
         Freed { model, meta, limit, sign: if limit.is_upper() { 1.0 } else { -1.0 } }

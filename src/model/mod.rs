@@ -83,6 +83,11 @@ impl Meta {
         self.row_lower.len()
     }
 
+    /// Whether row i is known to be affine in x.
+    pub fn is_row_linear(&self, i: usize) -> bool {
+        self.row_is_linear.get(i).copied().unwrap_or(false)
+    }
+
     /// Moves x inside the bounds, length n.
     pub fn clamp(&self, x: &mut [f64]) {
         for (x, (lower, upper)) in x.iter_mut().zip(self.lower.iter().zip(&self.upper)) {

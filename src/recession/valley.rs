@@ -3,8 +3,9 @@
 use super::floor::{Floor, settle};
 use crate::model::{Meta, Model};
 
-/// Doublings of the distance: 2^100 sizes are beyond anything a model means.
-const DOUBLINGS: i32 = 100;
+/// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, and 2^100 sizes are beyond anything a model
+/// means.
+const DOUBLINGS: std::ops::Range<i32> = -10..100;
 /// Doublings that must go well before the model may end in an overflow.
 const ENOUGH: i32 = 24;
 /// The first step, in sizes of the variable.
@@ -108,7 +109,7 @@ impl<'a> Valley<'a> {
     /// By how much the objective falls on the way outwards, beyond rounding; `None` where it rises or ends at a limit.
     fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<f64> {
         let (mut last, origin) = (base, floor.x[lead.pivot]);
-        for doubling in 0..DOUBLINGS {
+        for doubling in DOUBLINGS {
             let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= ENOUGH { break } else { return None }
             };

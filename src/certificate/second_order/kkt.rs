@@ -61,7 +61,7 @@ impl<'a> Kkt<'a> {
         build: impl Fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>,
     ) -> Result<Self, FactorizationError> {
         let place = places(point.meta().variables(), free);
-        let (mut rows, slopes) = (Vec::new(), held.iter().map(|&i| point.slope_in_sizes(i)).collect());
+        let (mut rows, slopes) = (Vec::new(), held.iter().map(|&i| point.slopes[i]).collect());
         for (k, &i) in held.iter().enumerate() {
             let of_free = point.row_in_sizes(i).filter(|&(j, _)| place[j] != u32::MAX);
             rows.extend(of_free.map(|(j, value)| (k as u32, place[j], value)));

@@ -88,6 +88,11 @@ impl Interval {
         if negative { inverse.negate() } else { inverse }
     }
 
+    /// The smallest interval around both.
+    pub fn union(self, other: Self) -> Self {
+        Interval::new(self.lower.min(other.lower), self.upper.max(other.upper))
+    }
+
     fn minimum(self, other: Self) -> Self {
         Interval { lower: self.lower.min(other.lower), upper: self.upper.min(other.upper) }
     }

@@ -149,8 +149,8 @@ fn read_faces(tokens: &mut Tokens, count: usize, mesh: &mut PolygonMesh) -> Resu
 
 /// A face, or a line of two corners.
 pub(super) fn push(mesh: &mut PolygonMesh, face: &[u32]) -> Result<(), String> {
-    match face {
-        &[a, b] => mesh.ribs.push([a, b]),
+    match *face {
+        [a, b] => mesh.ribs.push([a, b]),
         [] | [_] => return Err(format!("a face needs at least three vertices, this one has {}", face.len())),
         _ => mesh.push_face(face),
     }

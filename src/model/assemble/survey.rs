@@ -126,15 +126,10 @@ impl Shape {
     }
 
     fn widen(&mut self, inputs: &[Interval], data: &[f64], weight: f64) {
-        self.inputs.iter_mut().zip(inputs).for_each(|(hull, &one)| *hull = union(*hull, one));
-        self.data.iter_mut().zip(data).for_each(|(hull, &one)| *hull = union(*hull, Interval::point(one)));
-        self.weight = union(self.weight, Interval::point(weight));
+        self.inputs.iter_mut().zip(inputs).for_each(|(hull, &one)| *hull = hull.union(one));
+        self.data.iter_mut().zip(data).for_each(|(hull, &one)| *hull = hull.union(Interval::point(one)));
+        self.weight = self.weight.union(Interval::point(weight));
     }
-}
-
-/// The smallest interval around both.
-fn union(a: Interval, b: Interval) -> Interval {
-    Interval::new(a.lower.min(b.lower), a.upper.max(b.upper))
 }
 
 /// What holds of either of two: rows of different shape in one constraint.

@@ -136,8 +136,7 @@ impl Restating {
 
     fn range(&mut self, formula: &Formula) -> Interval {
         let items = std::mem::take(&mut self.items);
-        let hull = |a: Interval, b: Interval| Interval::new(a.lower.min(b.lower), a.upper.max(b.upper));
-        let range = items.iter().map(|&item| self.ranges.of(&self.problem, formula, item)).reduce(hull);
+        let range = items.iter().map(|&item| self.ranges.of(&self.problem, formula, item)).reduce(Interval::union);
         self.items = items;
         range.unwrap_or(Interval::WHOLE)
     }
@@ -252,7 +251,7 @@ impl Restating {
             other => other.clone(),
         };
         match self.arguments(&opened, upward).or_else(|| self.arguments(&opened, !upward)) {
-            Some(list) => list.iter().map(|one| self.spread(one, upward)).reduce(hull).unwrap_or(Interval::WHOLE),
+            Some(list) => list.iter().map(|one| self.spread(one, upward)).reduce(Interval::union).unwrap_or(Interval::WHOLE),
             None => self.range(formula),
         }
     }
@@ -477,10 +476,6 @@ fn item(scope: &Scope, at: usize) -> (Item, &[u32]) {
         Scope::RibGroups(groups) => (groups[at].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), &groups[at].1),
         Scope::SectionGroups(groups) => (groups[at].1.first().map_or(Item::None, |&s| Item::Section(s)), &groups[at].1),
     }
-}
-
-fn hull(a: Interval, b: Interval) -> Interval {
-    Interval::new(a.lower.min(b.lower), a.upper.max(b.upper))
 }
 
 /// The same operation with another operand.
