@@ -331,7 +331,8 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    total.iter().zip(&point.sizes).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * d / point.sigma))
+    let free = (0..total.len()).filter(|&j| !point.meta().is_fixed(j));
+    free.fold(0.0, |most: f64, j| most.max(f64::EPSILON * total[j] * point.sizes[j] / point.sigma))
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

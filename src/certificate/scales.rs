@@ -8,8 +8,8 @@ use crate::model::{Meta, Model};
 const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
 
 /// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
-/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (1 where none was), and of bounds on both
-/// sides. A size that is too small makes a test stricter, never laxer.
+/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound, or 1), and of
+/// bounds on both sides. A size that is too small makes a test stricter, never laxer.
 pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
     let known = known_sizes(meta, jacobian);
     let size = |(j, &x): (usize, &f64)| {
@@ -38,11 +38,14 @@ pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
     known
 }
 
-/// The magnitude of the start that was given, or 1; at the most that of the bounds.
+/// The magnitude of the start that was given, else of a bound, else 1; at the most that of bounds on both sides.
 fn declared_size(meta: &Meta, j: usize) -> f64 {
-    let given = meta.typical.get(j).copied().filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0);
-    let within = meta.lower[j].abs().max(meta.upper[j].abs());
-    if within > 0.0 { given.min(within) } else { given }
+    let is_size = |size: &f64| *size > 0.0 && size.is_finite();
+    let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
+    let given = meta.typical.get(j).copied().filter(is_size);
+    let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min)).unwrap_or(1.0);
+    let within = bounds[0].max(bounds[1]);
+    if within > 0.0 { size.min(within) } else { size }
 }
 
 /// The larger magnitude of row i's finite limits; 0 where it has none.
@@ -85,8 +88,8 @@ pub(super) fn slope_about(origin: &Origin<'_>, x: &[f64], sizes: &[f64]) -> f64 
     let slope = |way: f64| {
         let mut gradient = vec![0.0; x.len()];
         origin.model.gradient(&moved(origin.meta(), x, sizes, way), &mut gradient).ok()?;
-        let slopes = gradient.iter().zip(sizes).map(|(g, d)| (g * d).abs());
-        Some(slopes.fold(0.0, f64::max)).filter(|slope| slope.is_finite())
+        let free = (0..x.len()).filter(|&j| !origin.meta().is_fixed(j));
+        Some(free.map(|j| (gradient[j] * sizes[j]).abs()).fold(0.0, f64::max)).filter(|slope| slope.is_finite())
     };
     let less_steep = |step: f64| match (slope(step), slope(-step)) {
         (Some(a), Some(b)) => Some(a.min(b)),

@@ -174,23 +174,27 @@ impl<'a> Valley<'a> {
 
     /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
     fn height(&self, floor: &Floor) -> Option<Height> {
-        let value = self.value(&floor.x)?;
-        let beside = |digits: f64| {
+        let (objective, bought) = self.value(&floor.x)?;
+        let noise_of = |digits: f64| {
             let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * share(j) * f64::EPSILON);
             let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
-            self.site.model.objective(&x).map_or(0.0, |value| value.abs())
+            let change = |there: (f64, Vec<f64>)| {
+                let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
+                (there.0 - objective).abs() + rows
+            };
+            self.value(&x).map_or(0.0, change)
         };
-        let objective = self.site.model.objective(&floor.x).ok()?.abs();
-        let noise = DIGITS.into_iter().map(|digits| (beside(digits) - objective).abs()).fold(0.0, f64::max);
-        Some(Height { value, noise: noise + ROUNDINGS * objective })
+        let noise = DIGITS.into_iter().map(noise_of).fold(0.0, f64::max);
+        let value = objective + bought.iter().map(|bought| bought.max(0.0)).sum::<f64>();
+        Some(Height { value, noise: noise + ROUNDINGS * objective.abs() })
     }
 
-    fn value(&self, x: &[f64]) -> Option<f64> {
+    /// f, and y_i·(c_i − limit_i) row by row.
+    fn value(&self, x: &[f64]) -> Option<(f64, Vec<f64>)> {
         let mut rows = vec![0.0; self.site.meta().rows()];
         self.site.model.constraints(x, &mut rows).ok()?;
-        let bought = |&(i, limit): &(usize, f64)| (self.site.multipliers[i] * (rows[i] - limit)).max(0.0);
-        let objective = self.site.model.objective(x).ok()?;
-        Some(objective + self.site.held.iter().map(bought).sum::<f64>())
+        let bought = |&(i, limit): &(usize, f64)| self.site.multipliers[i] * (rows[i] - limit);
+        Some((self.site.model.objective(x).ok()?, self.site.held.iter().map(bought).collect()))
     }
 }
 

@@ -15,17 +15,19 @@ use crate::model::Model;
 
 /// Directions bending less than this, in units of σ, are followed: an inflection may hide as near as the slope test allows.
 const FLAT: f64 = 1e-2;
-/// Lengths, relative to the variables' sizes.
-const STEPS: [f64; 9] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
+/// Lengths, relative to the variables' sizes; beyond one size where all is level to the last digits up to there.
+const STEPS: [f64; 15] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6];
 const CORRECTIONS: usize = 8;
 /// Directions followed at the most, and the sum of orders of the systems solved for them.
 const DIRECTIONS: usize = 24;
 const WORK: usize = 20_000;
-/// An inflection with the third derivative r at the distance δ shows the curvature κ = r·δ and the slope s = ½r·δ², and falls from
-/// the distance 3δ on: there κ·step = 6·s. As steps grow 3⅓-fold, a fall farther off than κ·step = NEAR·(s + ROUNDED), both in units
-/// of σ, is another valley's.
+/// An inflection with the third derivative r that hides within the accepted slope, ½r·δ² ≤ optimality at the distance δ, shows the
+/// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
+/// off than κ·step = NEAR·optimality is another valley's.
 const NEAR: f64 = 20.0;
-const ROUNDED: f64 = 1e-8;
+/// Along a direction in which the objective rises by more than the accepted slope a limit that is nearly weakly active pushes
+/// back: a fall farther off than so much of the variables' sizes is another valley's (docs/certificate.md, (e)).
+const BEYOND_A_LIMIT: f64 = 1e-3;
 /// Limits nearer than this are left or kept by a step, and corrections do not run against them.
 const BESIDE: f64 = 1e-3;
 /// Rounding of the objective and of rows on their limits, in units of σ.
@@ -136,7 +138,9 @@ impl<'w, 'p> Walk<'w, 'p> {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
         let slope = self.slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs() / point.scale();
-        for step in STEPS.into_iter().take_while(|step| curvature * step <= NEAR * (slope + ROUNDED)) {
+        let longest = if slope > self.tolerances.optimality { BEYOND_A_LIMIT } else { f64::INFINITY };
+        let is_near = |step: &f64| *step <= longest && curvature * step <= NEAR * self.tolerances.optimality;
+        for step in STEPS.into_iter().take_while(is_near) {
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
             let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {

@@ -7,6 +7,7 @@ use super::lower::Context;
 use super::survey::{Bend, Survey};
 use super::walk::Walk;
 use super::{AssemblyError, context};
+use crate::expression::operators::Unary;
 use crate::expression::structure::Wanted;
 use crate::model::logarithmic::Logarithmic;
 use crate::model::{Class, Model, RibModel};
@@ -120,13 +121,12 @@ impl Judge<'_> {
         if let Some(j) = self.problem.variables.lower.iter().position(|&lower| lower < 0.0) {
             return Ok(Err(format!("{} may be negative", self.problem.variable_name(j))));
         }
-        let (objective, wanted, direct) = match (self.problem.sense, &self.problem.objective) {
-            (Sense::Minimize, Formula::Unary(crate::expression::operators::Unary::Negate, inner)) => {
-                (&**inner, Wanted::LogConcave, false)
-            }
-            (Sense::Minimize, objective) => (objective, Wanted::LogConvex, true),
-            (Sense::Maximize, objective) => (objective, Wanted::LogConcave, false),
+        // Minimising −f is maximising f, and the other way round.
+        let (objective, is_minimised) = match (self.problem.sense, &self.problem.objective) {
+            (sense, Formula::Unary(Unary::Negate, inner)) => (&**inner, sense == Sense::Maximize),
+            (sense, objective) => (objective, sense == Sense::Minimize),
         };
+        let (wanted, direct) = if is_minimised { (Wanted::LogConvex, true) } else { (Wanted::LogConcave, false) };
         let survey = self.objective(objective)?;
         if !holds(wanted, survey.bend()) {
             return Ok(Err(words("the objective", &survey, wanted)));
