@@ -1,4 +1,4 @@
-//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (SPEC §4).
+//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (docs/certificate.md).
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
@@ -10,6 +10,7 @@ mod higher_order;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
+mod newton;
 mod point;
 mod propagation;
 mod runaway;
@@ -24,9 +25,11 @@ use feasibility::{Feasibility, worst_violation};
 use std::time::Instant;
 
 use multipliers::Multipliers;
+use newton::Newton;
 use point::{Origin, Point};
 use second_order::{Active, Curvature, Hessian};
 
+use crate::math::split_mix::SplitMix;
 use crate::model::{Class, EvaluationError, Model};
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
@@ -118,6 +121,12 @@ impl<'a> Certifier<'a> {
         {
             certificate.complementarity = certificate.complementarity.max(gain);
         }
+        if self.is_stationary(&certificate) && !point.meta().objective_is_linear {
+            if point.sigma == 0.0 {
+                point.add_curvature()?;
+            }
+            certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
+        }
         certificate.scope = Scope::of(self.class);
         self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
@@ -201,12 +210,23 @@ impl<'a> Certifier<'a> {
             false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
         let falls_further = descent.is_some();
-        let runaway = match bends_down || falls_further {
+        let mut runaway = match bends_down || falls_further {
             true => Vec::new(),
             false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
-        certificate.certified = !bends_down && !falls_further && undecided.is_none() && runaway.is_empty();
-        certificate.escape = escape.or(descent);
+        let mut elsewhere = None;
+        if !bends_down && !falls_further && runaway.is_empty() && self.class != Class::Linear && !point.is_over() {
+            match newton::steps(point, &active) {
+                Newton::Stays => {}
+                Newton::LeadsTo(direction) => elsewhere = Some(direction),
+                Newton::Falls(variables) => runaway = variables,
+            }
+        }
+        certificate.led_on = elsewhere.is_some();
+        certificate.cut_short = point.is_cut_short();
+        let goes_on = !runaway.is_empty() || certificate.led_on || certificate.cut_short;
+        certificate.certified = !bends_down && !falls_further && undecided.is_none() && !goes_on;
+        certificate.escape = escape.or(descent).or(elsewhere);
         (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
         certificate.undecided = undecided.filter(|_| !falls_further);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
@@ -333,6 +353,21 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
     let free = (0..total.len()).filter(|&j| !point.meta().is_fixed(j));
     free.fold(0.0, |most: f64, j| most.max(f64::EPSILON * total[j] * point.sizes[j] / point.sigma))
+}
+
+/// Last digits by which the point is moved to see what rounding makes of the objective.
+const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
+
+/// What the last digits of x make of the objective, in units of σ, beyond rounding of its value: where that is more than what is
+/// accepted of a slope, its terms cancel one another and its derivatives may be anything.
+fn objective_lost(point: &Point<'_>) -> f64 {
+    let change = |digits: f64| {
+        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * (2.0 * SplitMix::share(j as u64) - 1.0) * f64::EPSILON);
+        let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
+        point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
+    };
+    let most = DIGITS.into_iter().map(change).fold(0.0, f64::max) - 64.0 * f64::EPSILON * point.objective.abs();
+    (most / point.scale()).max(0.0)
 }
 
 /// Σ|multiplier|·|distance to its limit|/σ, and its largest term.

@@ -1,6 +1,7 @@
 //! Values, derivatives and scales at the point to be judged.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
 
 use super::scales;
@@ -57,6 +58,8 @@ pub(super) struct Point<'a> {
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
     pub(super) terms: Vec<f64>,
+    /// A search was ended by the deadline.
+    cut_short: AtomicBool,
     /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
     mean_slopes: OnceLock<Option<Vec<f64>>>,
 }
@@ -90,8 +93,23 @@ impl<'a> Point<'a> {
             relies_on_curvature: false,
             slopes,
             terms,
+            cut_short: AtomicBool::new(false),
             mean_slopes: OnceLock::new(),
         })
+    }
+
+    /// Whether searches have to end, and so are cut short.
+    pub(super) fn is_over(&self) -> bool {
+        let is_over = self.origin.until.is_some_and(|until| Instant::now() >= until);
+        if is_over {
+            self.cut_short.store(true, Relaxed);
+        }
+        is_over
+    }
+
+    /// Whether a search was cut short.
+    pub(super) fn is_cut_short(&self) -> bool {
+        self.cut_short.load(Relaxed)
     }
 
     /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes

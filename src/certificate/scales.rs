@@ -2,6 +2,7 @@
 //! objective is about a point. Nothing here looks at a start the program has invented, nor at values or derivatives at a start.
 
 use super::point::{Origin, Point};
+use crate::math::split_mix::SplitMix;
 use crate::model::{Meta, Model};
 
 /// Relative steps to places about a point, the first at which the model has a value is taken.
@@ -46,6 +47,22 @@ fn declared_size(meta: &Meta, j: usize) -> f64 {
     let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min)).unwrap_or(1.0);
     let within = bounds[0].max(bounds[1]);
     if within > 0.0 { size.min(within) } else { size }
+}
+
+/// Which variables have no size but the 1 that stands for want of anything better: none at the point, no start, no bound and no
+/// row's limit tells.
+pub(super) fn invented(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<bool> {
+    let is_number = |size: &f64| *size > 0.0 && size.is_finite();
+    let is_open = |j: usize| {
+        let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
+        x[j].abs() < 1.0 && !meta.typical.get(j).is_some_and(is_number) && !bounds.iter().any(is_number)
+    };
+    let mut invented: Vec<bool> = (0..x.len()).map(is_open).collect();
+    for i in (0..meta.rows()).filter(|&i| largest_limit(meta, i) > 0.0) {
+        let limits = meta.jacobian.range(i).filter(|&at| jacobian[at] != 0.0);
+        limits.for_each(|at| invented[meta.jacobian.columns[at] as usize] = false);
+    }
+    invented
 }
 
 /// The larger magnitude of row i's finite limits; 0 where it has none.
@@ -115,10 +132,7 @@ pub(super) fn is_quadratic(point: &Point<'_>, j: usize, second: f64) -> bool {
 /// x + way·u∘sizes, u in [½, 1] without a pattern, so that sums and differences of variables move, too. A variable that a bound
 /// would stop goes the other way: where nothing moves, nothing is learnt.
 fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
-    let share = |j: usize| {
-        let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11;
-        0.5 + 0.5 * mixed as f64 / (1u64 << 53) as f64
-    };
+    let share = |j: usize| 0.5 + 0.5 * SplitMix::share(j as u64);
     let there = |j: usize| {
         let (step, lower, upper) = (way * share(j) * sizes[j].abs(), meta.lower[j], meta.upper[j]);
         let ahead = x[j] + step;

@@ -10,6 +10,11 @@ impl SplitMix {
         SplitMix(seed)
     }
 
+    /// A fixed number in [0, 1) for every k: without a pattern, the same on every machine.
+    pub fn share(k: u64) -> f64 {
+        SplitMix::new(k).uniform()
+    }
+
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);

@@ -47,6 +47,30 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
     Some(place)
 }
 
+/// Newton's steps from a site, all free variables moving: where so many lead, and the longest change of each in units of the
+/// variables' sizes. `None` where the model has no value on the way.
+pub fn newton(site: &Site<'_>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+    let mut place = Floor { x: site.x.to_vec(), multipliers: site.multipliers.to_vec() };
+    let mut lengths = Vec::with_capacity(count);
+    for _ in 0..count {
+        let step = newton_step(site, site.free, &place)?;
+        let mut longest = 0.0f64;
+        for (&j, step) in site.free.iter().zip(&step) {
+            let before = place.x[j];
+            place.x[j] = (before + step).clamp(site.meta().lower[j], site.meta().upper[j]);
+            longest = longest.max((place.x[j] - before).abs() / site.sizes[j]);
+        }
+        for (&(i, _), step) in site.held.iter().zip(&step[site.free.len()..]) {
+            place.multipliers[i] += step;
+        }
+        if !place.x.iter().chain(&place.multipliers).all(|value| value.is_finite()) {
+            return None;
+        }
+        lengths.push(longest);
+    }
+    Some((place.x, lengths))
+}
+
 /// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes its own curvature one.
 fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor) -> Option<Vec<f64>> {
     let (meta, model) = (site.meta(), site.model);

@@ -1,12 +1,13 @@
 //! Following a valley outwards.
 
 use super::floor::{Floor, settle};
+use crate::math::split_mix::SplitMix;
 use crate::model::{Meta, Model};
 
 /// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, and 2^100 sizes are beyond anything a model
 /// means.
 const DOUBLINGS: std::ops::Range<i32> = -10..100;
-/// Doublings that must go well before the model may end in an overflow.
+/// Doublings that must go well before the model may end in an overflow, or be lost in rounding.
 const ENOUGH: i32 = 24;
 /// The first step, in sizes of the variable.
 const FIRST: f64 = 0.25;
@@ -114,7 +115,9 @@ impl<'a> Valley<'a> {
                 if doubling >= ENOUGH { break } else { return None }
             };
             if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
-                return None;
+                // So far out that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
+                let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
+                if is_lost { break } else { return None }
             }
             if height.value < last.value {
                 last = height;
@@ -200,8 +203,7 @@ impl<'a> Valley<'a> {
 
 /// A fixed number in [−1, 1) without a pattern: variables moved alike would keep their differences.
 fn share(j: usize) -> f64 {
-    let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    2.0 * SplitMix::share(j as u64) - 1.0
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! and the point's own slope do not explain decides.
 
 use super::trial_point::Trial;
-use crate::certificate::Tolerances;
+use crate::certificate::{Tolerances, worst_complementarity};
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::point::Point;
 use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
@@ -85,8 +85,8 @@ struct Walk<'w, 'p> {
     held: Vec<usize>,
     may_be_left: Vec<bool>,
     kkt: Kkt<'w>,
-    /// The objective at the point and its Lagrangian, the lower first: going to a limit that is missed by a little is neither a
-    /// fall nor a rise.
+    /// The objective at the point, or its Lagrangian where that is lower, and the objective with what all distances to limits are
+    /// worth: going to a limit that is missed by a little is neither a fall nor a rise.
     here: (f64, f64),
     /// ∇f + Jᵀy
     slopes: Vec<f64>,
@@ -111,7 +111,8 @@ impl<'w, 'p> Walk<'w, 'p> {
         kkt.factor_proximal()?;
         let multipliers = active.multipliers;
         let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
-        let here = (point.objective.min(balanced), point.objective.max(balanced));
+        let worth = worst_complementarity(point, multipliers).1 * point.scale();
+        let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
         let slopes = point.row_gradient(&multipliers.rows);
         Ok(Walk {
             point,
@@ -129,8 +130,8 @@ impl<'w, 'p> Walk<'w, 'p> {
     }
 
     fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
-        let mut directions = directions;
-        Ok(directions.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
+        let mut within_time = directions.take_while(|_| !self.point.is_over());
+        Ok(within_time.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
     }
 
     /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
@@ -138,9 +139,14 @@ impl<'w, 'p> Walk<'w, 'p> {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
         let slope = self.slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs() / point.scale();
-        let longest = if slope > self.tolerances.optimality { BEYOND_A_LIMIT } else { f64::INFINITY };
-        let is_near = |step: &f64| *step <= longest && curvature * step <= NEAR * self.tolerances.optimality;
+        // ∂L/∂x_j·d_j is accepted up to optimality·σ, each.
+        let accepted = self.tolerances.optimality * direction.iter().zip(&point.sizes).map(|(v, d)| (v / d).abs()).sum::<f64>();
+        let longest = if slope > accepted { BEYOND_A_LIMIT } else { f64::INFINITY };
+        let is_near = |step: &f64| *step <= STEPS[0] || (*step <= longest && curvature * step <= NEAR * accepted);
         for step in STEPS.into_iter().take_while(is_near) {
+            if point.is_over() {
+                return None;
+            }
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
             let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
