@@ -6,6 +6,7 @@ mod chains;
 mod convergence;
 mod cross_sections;
 mod elevation;
+pub mod performance_profile;
 mod profiles;
 
 pub use convergence::{Trace, convergence};
