@@ -13,6 +13,7 @@ mod multipliers;
 mod newton;
 mod point;
 mod propagation;
+mod row_range;
 mod runaway;
 mod scales;
 mod second_order;
@@ -29,6 +30,7 @@ use newton::Newton;
 use point::{Origin, Point};
 use second_order::{Active, Curvature, Hessian};
 
+use crate::linear_algebra::Partition;
 use crate::math::split_mix::SplitMix;
 use crate::model::{Class, EvaluationError, Model};
 pub use farkas::{Contradiction, contradiction};
@@ -124,6 +126,7 @@ impl<'a> Certifier<'a> {
         if self.is_stationary(&certificate) && !point.meta().objective_is_linear {
             if point.sigma == 0.0 {
                 point.add_curvature()?;
+                point.relies_on_curvature = true;
             }
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
         }
@@ -215,8 +218,9 @@ impl<'a> Certifier<'a> {
             false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
         let mut elsewhere = None;
-        if !bends_down && !falls_further && runaway.is_empty() && self.class != Class::Linear && !point.is_over() {
-            match newton::steps(point, &active) {
+        let may_deceive = !bends_down && !falls_further && runaway.is_empty();
+        if may_deceive && self.class != Class::Linear && !point.is_over() {
+            match newton::steps(point, &active, self.tolerances.constraint) {
                 Newton::Stays => {}
                 Newton::LeadsTo(direction) => elsewhere = Some(direction),
                 Newton::Falls(variables) => runaway = variables,
@@ -253,12 +257,32 @@ impl<'a> Certifier<'a> {
             primal_infeasibility: feasibility.infeasibility,
             met_only_far_away: feasibility.only_far_away,
             dual_infeasibility: worst_slope(point, multipliers, None).1,
-            complementarity: worst_complementarity(point, multipliers).1,
+            complementarity: self.complementarity(point, multipliers),
             row_sides: (0..meta.rows()).map(row_side).collect(),
             bound_sides: (0..meta.variables()).map(bound_side).collect(),
             sigma: point.sigma,
             ..Certificate::default()
         }
+    }
+
+    /// Σ|multiplier|·|distance|/σ; where a model falls apart, of the worst part: many parts that each pass are no fault together.
+    fn complementarity(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        let (sum, meta) = (worst_complementarity(point, multipliers).1, point.meta());
+        if sum <= self.tolerances.optimality {
+            return sum;
+        }
+        let Some(parts) = Partition::of_patterns(&meta.jacobian, &meta.hessian) else { return sum };
+        let mut sums = vec![0.0; parts.len()];
+        for (place, term) in complementarity_terms(point, multipliers) {
+            let variable = match place {
+                Place::Row(i) => meta.jacobian.row(i).first().copied(),
+                Place::Variable(j) => Some(j as u32),
+            };
+            // A row without variables is no part's.
+            let Some(variable) = variable else { return sum };
+            sums[parts.component(variable) as usize] += term;
+        }
+        sums.into_iter().fold(0.0, f64::max)
     }
 
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
@@ -362,7 +386,7 @@ const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
 /// accepted of a slope, its terms cancel one another and its derivatives may be anything.
 fn objective_lost(point: &Point<'_>) -> f64 {
     let change = |digits: f64| {
-        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * (2.0 * SplitMix::share(j as u64) - 1.0) * f64::EPSILON);
+        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
         let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
         point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
     };
@@ -370,15 +394,20 @@ fn objective_lost(point: &Point<'_>) -> f64 {
     (most / point.scale()).max(0.0)
 }
 
-/// Σ|multiplier|·|distance to its limit|/σ, and its largest term.
-fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
+/// |multiplier|·|distance to its limit|/σ, limit by limit.
+fn complementarity_terms<'a>(point: &'a Point<'_>, multipliers: &'a Multipliers) -> impl Iterator<Item = (Place, f64)> + 'a {
     let term = |multiplier: f64, value: f64, limit: f64| {
         if multiplier == 0.0 { 0.0 } else { multiplier.abs() * (value - limit).abs() / point.scale() }
     };
-    let rows = multipliers.rows.iter().enumerate().map(|(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
+    let rows = multipliers.rows.iter().enumerate();
+    let rows = rows.map(move |(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
     let bounds = multipliers.bounds.iter().enumerate();
-    let bounds = bounds.map(|(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z))));
+    rows.chain(bounds.map(move |(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z)))))
+}
+
+/// Their sum, and the largest of them.
+fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
     let add = |(worst, sum): (Worst, f64), next: (Place, f64)| (worse(worst, next), sum + next.1);
-    let (worst, sum) = rows.chain(bounds).fold(((None, 0.0), 0.0), add);
+    let (worst, sum) = complementarity_terms(point, multipliers).fold(((None, 0.0), 0.0), add);
     (worst.0, sum)
 }

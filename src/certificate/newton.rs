@@ -4,6 +4,7 @@
 //! From a point that is stationary they lead nowhere: they vanish, or (at a minimum that is flat to second order) shrink. In a tail
 //! they stay as long as they are, or grow, and the objective falls at each; in wrong units they lead to another point.
 
+use super::feasibility::worst_violation;
 use super::point::Point;
 use super::runaway::{LARGEST, held_rows};
 use super::scales;
@@ -23,8 +24,8 @@ const LENGTH: f64 = 1e-14;
 const MOVED: f64 = 1e-3;
 /// Directions are stretched by this: further runs start at a tenth of them.
 const STRETCH: f64 = 10.0;
-/// Rounding of the objective.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+/// The objective is lower where it has fallen by more than this share of itself.
+const LOWER: f64 = 1e-3;
 
 /// What Newton's steps say of a point.
 pub(super) enum Newton {
@@ -36,8 +37,9 @@ pub(super) enum Newton {
     Falls(Vec<usize>),
 }
 
-/// Takes the steps where the slope is small only in the measure of curvature or of an invented size.
-pub(super) fn steps(point: &Point<'_>, active: &Active<'_>) -> Newton {
+/// Takes the steps where the slope is small only in the measure of curvature or of an invented size. Only where they end at a
+/// feasible point that is lower do they say anything.
+pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> Newton {
     let invented = scales::invented(point.meta(), point.x, &point.jacobian);
     if !point.relies_on_curvature && !invented.contains(&true) {
         return Newton::Stays;
@@ -57,13 +59,17 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>) -> Newton {
         is_feasible: &|_| true,
     };
     let Some((x, lengths)) = recession::newton(&site, STEPS) else { return Newton::Stays };
+    let fallen = fallen(point, &x, tolerance);
+    if fallen <= LOWER {
+        return Newton::Stays;
+    }
     let stretched = |x: &[f64]| x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect();
     let share = |&j: &usize| (x[j] - point.x[j]).abs() / point.plain_sizes()[j];
     if free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
         return Newton::LeadsTo(stretched(&x));
     }
     let has_shrunk = |at: usize| lengths[at] < SHRUNK * lengths[0] || lengths[0] <= LENGTH;
-    if has_shrunk(SOON) || !has_fallen(point, &x) {
+    if has_shrunk(SOON) || fallen < 0.5 {
         return Newton::Stays;
     }
     if has_shrunk(STEPS - 1) {
@@ -73,7 +79,11 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>) -> Newton {
     Newton::Falls(free.iter().copied().filter(|j| share(j) > 1e-3 * most).collect())
 }
 
-/// Whether the objective has fallen by half of itself on the way to x.
-fn has_fallen(point: &Point<'_>, x: &[f64]) -> bool {
-    point.origin.model.objective(x).is_ok_and(|there| there < point.objective - (0.5 + ROUNDINGS) * point.objective.abs())
+/// By which share of itself the objective has fallen on the way to x, where that is feasible.
+fn fallen(point: &Point<'_>, x: &[f64], tolerance: f64) -> f64 {
+    let is_feasible = Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerance);
+    match point.origin.model.objective(x) {
+        Ok(there) if is_feasible && there < point.objective => (point.objective - there) / point.objective.abs(),
+        _ => 0.0,
+    }
 }

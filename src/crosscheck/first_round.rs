@@ -17,7 +17,9 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
         };
         let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
             true => {
-                ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into())
+                let is_proved = found.iter().flatten().any(|answer| answer.is_certified());
+                let known = if is_proved { "a minimum is certified" } else { "one evaluation costs it very much" };
+                ledger.not_run(k, format!("not run: {known}, and its share of the work is a few evaluations"))
             }
             false => {
                 let multipliers = ledger.session.task.start_multipliers;

@@ -163,16 +163,7 @@ impl<'a> Session<'a> {
             solution.message = format!("its share of the work ended before it did ({} evaluations)", solution.evaluations);
         }
         let attempt = usize::from(solution.termination != Termination::Refused);
-        let mut answer = Answer {
-            backend: solver.backend.name(),
-            solution,
-            objective: None,
-            certificate: None,
-            feasible: false,
-            attempt,
-            gave_way,
-            remarks: Vec::new(),
-        };
+        let mut answer = Answer { attempt, gave_way, ..Answer::unjudged(solver.backend.name(), solution) };
         self.judge_again(&mut answer);
         answer
     }

@@ -15,6 +15,12 @@ impl SplitMix {
         SplitMix::new(k).uniform()
     }
 
+    /// The same of either sign, and at least ½ in magnitude.
+    pub fn signed(k: u64) -> f64 {
+        let share = SplitMix::share(k);
+        if share < 0.5 { -0.5 - share } else { share }
+    }
+
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);

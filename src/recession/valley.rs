@@ -179,7 +179,8 @@ impl<'a> Valley<'a> {
     fn height(&self, floor: &Floor) -> Option<Height> {
         let (objective, bought) = self.value(&floor.x)?;
         let noise_of = |digits: f64| {
-            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * share(j) * f64::EPSILON);
+            // Each by its own: variables moved alike would keep their differences.
+            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
             let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
             let change = |there: (f64, Vec<f64>)| {
                 let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
@@ -199,11 +200,6 @@ impl<'a> Valley<'a> {
         let bought = |&(i, limit): &(usize, f64)| self.site.multipliers[i] * (rows[i] - limit);
         Some((self.site.model.objective(x).ok()?, self.site.held.iter().map(bought).collect()))
     }
-}
-
-/// A fixed number in [−1, 1) without a pattern: variables moved alike would keep their differences.
-fn share(j: usize) -> f64 {
-    2.0 * SplitMix::share(j as u64) - 1.0
 }
 
 #[cfg(test)]

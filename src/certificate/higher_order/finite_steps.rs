@@ -81,6 +81,8 @@ struct Walk<'w, 'p> {
     /// Free variables; with those on weakly active bounds, which corrections leave where a step has put them.
     free: Vec<usize>,
     loose: Vec<usize>,
+    /// Variables beside a bound that is strictly active, with that bound: rows that depend on it are met where they are on it.
+    resting: Vec<(usize, f64)>,
     /// Rows near a limit, and which of them are not strictly active: these may be left, and are only gone back to.
     held: Vec<usize>,
     may_be_left: Vec<bool>,
@@ -103,6 +105,11 @@ impl<'w, 'p> Walk<'w, 'p> {
         let (meta, strict) = (point.meta(), choice.strict_rows());
         let is_apart = |&j: &usize| (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]) > BESIDE * point.sizes[j];
         let free: Vec<usize> = choice.free.iter().copied().filter(is_apart).collect();
+        let mut is_loose = vec![false; point.x.len()];
+        choice.loose_variables().into_iter().for_each(|j| is_loose[j] = true);
+        let pushes = active.multipliers.bounds.iter().enumerate().filter(|&(j, z)| *z != 0.0 && !is_loose[j]);
+        let beside = pushes.map(|(j, &z)| (j, point.bound(j, z)));
+        let resting = beside.filter(|&(j, bound)| (point.x[j] - bound).abs() <= tolerances.optimality * point.sizes[j]).collect();
         let distance = |i: usize| (point.rows[i] - meta.row_lower[i]).min(meta.row_upper[i] - point.rows[i]);
         let is_near = |&i: &usize| point.slopes[i] > 0.0 && distance(i) <= BESIDE * point.slopes[i];
         let held: Vec<usize> = (0..meta.rows()).filter(is_near).collect();
@@ -121,6 +128,7 @@ impl<'w, 'p> Walk<'w, 'p> {
             tolerances,
             free,
             loose: choice.loose_variables(),
+            resting,
             held,
             may_be_left,
             kkt,
@@ -179,16 +187,34 @@ impl<'w, 'p> Walk<'w, 'p> {
         }
     }
 
-    /// Chord steps towards the active limits and down the directions that bend, inside the bounds.
+    /// The share of a correction that keeps x beside the point.
+    fn share_beside(&self, x: &[f64], correction: &[f64], step: f64) -> f64 {
+        let point = self.point;
+        let share = |(&j, correction): (&usize, &f64)| {
+            let gone = (x[j] - point.x[j]) / point.sizes[j] * correction.signum();
+            (2.0 * step - gone).max(0.0) / correction.abs()
+        };
+        self.free.iter().zip(correction).map(share).fold(1.0, f64::min)
+    }
+
+    /// Chord steps towards the active limits and down the directions that bend, inside the bounds. Where the way down leads off,
+    /// from there on towards the limits alone.
     fn corrected(&self, mut x: Vec<f64>, length: f64) -> Option<Vec<f64>> {
         let (point, meta) = (self.point, self.point.meta());
+        let mut descends = true;
         meta.clamp(&mut x);
+        self.resting.iter().for_each(|&(j, bound)| x[j] = bound);
         for _ in 0..CORRECTIONS {
-            let right = self.residual(&x)?;
+            let mut right = self.residual(&x)?;
+            if !descends {
+                right[..self.free.len()].fill(0.0);
+            }
             let step = self.kkt.solve(&right).ok()?;
+            let share = if descends { self.share_beside(&x, &step[..self.free.len()], length) } else { 1.0 };
+            descends &= share == 1.0;
             let mut longest = 0.0f64;
             for (&j, step) in self.free.iter().zip(&step) {
-                x[j] += step * point.sizes[j];
+                x[j] += share * step * point.sizes[j];
                 longest = longest.max(step.abs());
             }
             self.keep_beside(&mut x, length);

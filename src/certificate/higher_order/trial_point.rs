@@ -8,6 +8,9 @@ use crate::model::Model;
 /// Roundings a sum of such magnitudes may hide.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
+/// What corrections towards the rows leave, in units of their slopes.
+const CORRECTED: f64 = 1e-10;
+
 /// Objective and rows at another point.
 pub(in crate::certificate) struct Trial<'x> {
     x: &'x [f64],
@@ -35,7 +38,8 @@ impl<'x> Trial<'x> {
     pub(in crate::certificate) fn is_feasible(&self, point: &Point<'_>, tolerance: f64) -> bool {
         let meta = point.meta();
         let scale = |i: usize, limit: f64| {
-            tolerance * limit.abs().max(self.terms[i]) + ROUNDINGS * (limit.abs() + self.terms[i].max(point.terms[i]))
+            let rounding = ROUNDINGS * (limit.abs() + self.terms[i].max(point.terms[i]));
+            tolerance * limit.abs().max(self.terms[i]) + rounding + CORRECTED * point.slopes[i]
         };
         let meets = |i: usize| {
             let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.rows[i]);
