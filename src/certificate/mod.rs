@@ -385,13 +385,17 @@ const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
 /// What the last digits of x make of the objective, in units of σ, beyond rounding of its value: where that is more than what is
 /// accepted of a slope, its terms cancel one another and its derivatives may be anything.
 fn objective_lost(point: &Point<'_>) -> f64 {
+    ((last_digits(point) - 64.0 * f64::EPSILON * point.objective.abs()) / point.scale()).max(0.0)
+}
+
+/// What the last digits of x make of the objective.
+fn last_digits(point: &Point<'_>) -> f64 {
     let change = |digits: f64| {
         let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
         let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
         point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
     };
-    let most = DIGITS.into_iter().map(change).fold(0.0, f64::max) - 64.0 * f64::EPSILON * point.objective.abs();
-    (most / point.scale()).max(0.0)
+    DIGITS.into_iter().map(change).fold(0.0, f64::max)
 }
 
 /// |multiplier|·|distance to its limit|/σ, limit by limit.

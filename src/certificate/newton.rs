@@ -5,6 +5,7 @@
 //! they stay as long as they are, or grow, and the objective falls at each; in wrong units they lead to another point.
 
 use super::feasibility::worst_violation;
+use super::last_digits;
 use super::point::Point;
 use super::runaway::{LARGEST, held_rows};
 use super::scales;
@@ -24,8 +25,11 @@ const LENGTH: f64 = 1e-14;
 const MOVED: f64 = 1e-3;
 /// Directions are stretched by this: further runs start at a tenth of them.
 const STRETCH: f64 = 10.0;
-/// The objective is lower where it has fallen by more than this share of itself.
+/// The objective is lower where it has fallen by more than this share of itself, and by so many times what the last digits of the
+/// point make of it. Where it has fallen by nearly all of itself its minimum may be 0, and any share says nothing.
 const LOWER: f64 = 1e-3;
+const NEARLY_ALL: f64 = 0.99;
+const NOISE: f64 = 100.0;
 
 /// What Newton's steps say of a point.
 pub(super) enum Newton {
@@ -65,7 +69,7 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> N
     }
     let stretched = |x: &[f64]| x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect();
     let share = |&j: &usize| (x[j] - point.x[j]).abs() / point.plain_sizes()[j];
-    if free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
+    if fallen < NEARLY_ALL || free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
         return Newton::LeadsTo(stretched(&x));
     }
     let has_shrunk = |at: usize| lengths[at] < SHRUNK * lengths[0] || lengths[0] <= LENGTH;
@@ -83,7 +87,9 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> N
 fn fallen(point: &Point<'_>, x: &[f64], tolerance: f64) -> f64 {
     let is_feasible = Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerance);
     match point.origin.model.objective(x) {
-        Ok(there) if is_feasible && there < point.objective => (point.objective - there) / point.objective.abs(),
+        Ok(there) if is_feasible && there < point.objective - NOISE * last_digits(point) => {
+            (point.objective - there) / point.objective.abs()
+        }
         _ => 0.0,
     }
 }

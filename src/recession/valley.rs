@@ -141,7 +141,9 @@ impl<'a> Valley<'a> {
         let mut floor = here.clone();
         for target in ways {
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, height)) if height.rises_above(base) => {
+                    return (self.site.is_feasible)(&settled.x) || self.rises_before(lead, target, floor, base);
+                }
                 Some((settled, _)) => floor = settled,
                 None => return self.rises_before(lead, target, floor, base),
             }
@@ -149,12 +151,17 @@ impl<'a> Valley<'a> {
         false
     }
 
-    /// The same between a place that has a value and one that has none.
+    /// The same between a place that has a value and one that has none, or is not feasible.
     fn rises_before(&self, lead: &Lead, mut without: f64, mut floor: Floor, base: Height) -> bool {
         for _ in 0..BISECTIONS {
             let target = 0.5 * (floor.x[lead.pivot] + without);
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, height)) if height.rises_above(base) => {
+                    if (self.site.is_feasible)(&settled.x) {
+                        return true;
+                    }
+                    without = target;
+                }
                 Some((settled, _)) => floor = settled,
                 None => without = target,
             }

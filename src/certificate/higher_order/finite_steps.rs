@@ -55,7 +55,14 @@ pub(in crate::certificate) fn find(
     if flat.is_empty() && inwards.is_empty() {
         return Ok(None);
     }
-    Walk::from(point, active, hessian, tolerances, &choice)?.lower_point(inwards.iter().take(most).chain(&flat))
+    let mut walk = Walk::from(point, active, hessian, tolerances, &choice)?;
+    let found = walk.lower_point(inwards.iter().take(most).chain(&flat));
+    // Bent rows whose gradients depend on one another may have no point in common but this one.
+    if found.is_some() || strict.is_empty() {
+        return Ok(found);
+    }
+    walk.may_be_left.fill(true);
+    Ok(walk.lower_point(inwards.iter().take(most).chain(&flat)))
 }
 
 /// The same along one direction: whether it leads to a lower point indeed.
@@ -70,7 +77,7 @@ pub(in crate::certificate) fn confirm(
     let largest = direction.iter().zip(&point.sizes).map(size).fold(f64::MIN_POSITIVE, f64::max);
     let unit: Vec<f64> = direction.iter().map(|step| step / largest).collect();
     let walk = Walk::from(point, active, hessian, tolerances, &Choice::relaxed_all(point, active, hessian));
-    matches!(walk.and_then(|walk| walk.lower_point(std::iter::once(&unit))), Ok(Some(_)))
+    walk.is_ok_and(|walk| walk.lower_point(std::iter::once(&unit)).is_some())
 }
 
 struct Walk<'w, 'p> {
@@ -137,9 +144,9 @@ impl<'w, 'p> Walk<'w, 'p> {
         })
     }
 
-    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
+    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Option<Vec<f64>> {
         let mut within_time = directions.take_while(|_| !self.point.is_over());
-        Ok(within_time.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
+        within_time.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0)))
     }
 
     /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
