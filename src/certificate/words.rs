@@ -51,6 +51,12 @@ pub(super) fn messages(
         let names = list(certificate.runaway.iter().map(|&j| point.variable(j)));
         all.push(format!("the minimum is not attained: the objective keeps falling, ever more slowly, as {names} runs away"));
     }
+    if certificate.cut_short {
+        all.push("the time limit ended the search for lower points beside and beyond the point".into());
+    }
+    if certificate.led_on {
+        all.push(format!("nothing tells how large some variables are, and the slope is small only beside the size 1: Newton's steps lead on, to another point{along}"));
+    }
     if certificate.certified {
         all.extend(remarks(certificate));
     }

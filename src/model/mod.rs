@@ -119,6 +119,11 @@ impl Meta {
         self.row_is_linear.get(i).copied().unwrap_or(false)
     }
 
+    /// Whether variable j has one value only.
+    pub fn is_fixed(&self, j: usize) -> bool {
+        self.lower[j] == self.upper[j]
+    }
+
     /// Moves x inside the bounds, length n.
     pub fn clamp(&self, x: &mut [f64]) {
         for (x, (lower, upper)) in x.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
