@@ -3,15 +3,19 @@
 //! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]; nothing else changes.
 //! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
 
+mod angle;
 mod box_beam;
 mod build;
+mod channel;
 mod circle;
 mod h_beam;
+mod i_section;
 mod outline;
 mod pieces;
 mod polygon;
 mod polyline;
 mod rectangle;
+mod rectangles;
 mod superellipse;
 mod tee;
 mod tube;
@@ -146,9 +150,9 @@ pub static KINDS: &[&dyn Kind] = &[
     &tube::Tube,
     &polygon::Polygon,
     &polyline::Polyline,
-    &pieces::ISection,
-    &pieces::Channel,
-    &pieces::Angle,
+    &i_section::ISection,
+    &channel::Channel,
+    &angle::Angle,
 ];
 
 /// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 pub use check::{CheckReport, check};
 pub use lines::{RibsReport, ribs_folder, slice_file, trace_file};
-pub use solids::{plot, solids};
+pub use solids::solids;
 
 use super::closest::Surface;
 use super::formats::{self, FormatError, ending};

@@ -30,7 +30,7 @@ pub enum Ink {
 }
 
 impl Ink {
-    fn class(self) -> &'static str {
+    pub(super) fn class(self) -> &'static str {
         match self {
             Ink::Strong => "strong",
             Ink::Middle => "middle",
@@ -40,7 +40,7 @@ impl Ink {
     }
 
     /// On white, and on a dark ground.
-    fn colours(self) -> [&'static str; 2] {
+    pub(super) fn colours(self) -> [&'static str; 2] {
         match self {
             Ink::Strong => ["#1a1a1a", "#e8e8e8"],
             Ink::Middle => ["#767676", "#a0a8b0"],
@@ -164,6 +164,23 @@ impl Canvas {
             self.svg,
             "<path d=\"{data}\" {fill} stroke=\"{colour}\" stroke-width=\"{width}\"{dash} class=\"{class} s{also}\"/>"
         );
+    }
+
+    /// Further rules for classes of [`Canvas::shape`].
+    pub fn styles(&mut self, rules: &str) {
+        let _ = write!(self.svg, "<style>\n{rules}</style>\n");
+    }
+
+    /// An area of one colour on white and of another by its class on dark grounds; viewers show the label under the pointer.
+    pub fn shape(&mut self, data: &str, [colour, class]: [&str; 2], opacity: f64, label: &str) {
+        let _ = write!(self.svg, "<path d=\"{data}\" fill=\"{colour}\" class=\"{class}\"");
+        if opacity < 1.0 {
+            let _ = write!(self.svg, " fill-opacity=\"{opacity}\"");
+        }
+        let _ = match label {
+            "" => writeln!(self.svg, "/>"),
+            label => writeln!(self.svg, "><title>{}</title></path>", escaped(label)),
+        };
     }
 
     /// A dot; an empty one stands for a value that lies beyond the axis.
