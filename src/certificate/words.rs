@@ -74,7 +74,13 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
         None => return "the point is not feasible".into(),
     };
     let (word, limit) = if value < lower { ("below", lower) } else { ("above", upper) };
-    format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {:.1e})", tolerances.constraint)
+    let (value, limit, accepted) = (plain(value), plain(limit), tolerances.constraint);
+    format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {accepted:.1e})")
+}
+
+/// Without rows of zeros, or of digits.
+pub(crate) fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {

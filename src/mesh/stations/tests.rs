@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::QuadMesh;
 use crate::mesh::{generate, trace::trace};
 
 fn sliced(mesh: crate::mesh::PolygonMesh, longest: f64) -> (QuadMesh, Vec<StationLine>) {

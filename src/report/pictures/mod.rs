@@ -10,6 +10,7 @@ mod elevation;
 mod network;
 mod profiles;
 
+pub use chains::longest_line;
 pub use convergence::{Trace, convergence};
 pub use cross_sections::{cross_section, cross_sections};
 pub use elevation::elevation;
