@@ -10,6 +10,7 @@
 //! | [`crosscheck`] | several backends, one verdict |
 //! | [`backends`] | NLopt and argmin behind one trait |
 //! | [`certificate`] | the proof at a point, by code that knows no solver |
+//! | [`solvers`] | our own interior points and augmented Lagrangian |
 //! | [`model`] | objective, rows and their exact sparse derivatives |
 //! | [`problem`] | the checked declaration; knows no TOML |
 //! | [`ribs`], [`sections`] | volumes and section properties |
@@ -37,4 +38,5 @@ pub mod report;
 pub mod ribs;
 pub mod run;
 pub mod sections;
+pub mod solvers;
 pub mod splines;

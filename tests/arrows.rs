@@ -11,7 +11,7 @@ const FLOORS: &[&[&str]] = &[
     &["input", "report", "log"],
     &["crosscheck"],
     &["backends", "certificate"],
-    &["recession"],
+    &["recession", "solvers"],
     &["model"],
     &["problem"],
     &["ribs", "mesh"],
@@ -27,7 +27,6 @@ const SIDEWAYS: &[(&str, &str)] = &[("report", "log"), ("geometry", "splines")];
 const LIBRARIES: &[(&str, &[&str])] = &[
     ("nlopt", &["backends/nlopt"]),
     ("argmin", &["backends/argmin"]),
-    ("argmin_math", &["backends/argmin"]),
     ("toml", &["input"]),
     ("clap", &["cli"]),
     ("ctrlc", &["cli"]),

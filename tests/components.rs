@@ -9,7 +9,7 @@ use ribopt::backends::argmin::Argmin;
 use ribopt::backends::{Backend, Iteration, Job, Solution};
 use ribopt::certificate::{self, Tolerances};
 use ribopt::model::derivative_check::derivative_check;
-use ribopt::model::{Budget, Class, Model, Rebounded, RibModel, assemble};
+use ribopt::model::{Budget, Class, Model, RibModel, WithBounds, assemble};
 
 const RECTANGLE: &str = "
 [[constraints]]
@@ -91,7 +91,7 @@ fn the_joined_solution_is_certified_and_equals_that_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let model = network(60, false, folder.path());
     // Between its own bounds it is the same model, but does not tell that it falls apart.
-    let joined = Rebounded::new(&model, model.meta().lower.clone(), model.meta().upper.clone());
+    let joined = WithBounds::new(&model, model.meta().lower.clone(), model.meta().upper.clone());
     let (apart, whole) = (solve(&model), solve(&joined));
     assert!(apart.message.contains("60 independent components"), "{}", apart.message);
     let judge = |solution: &Solution| {
@@ -139,7 +139,7 @@ fn a_component_is_a_model_with_exact_derivatives_and_its_dense_twin_agrees() {
         let (meta, x) = (part.meta(), &part.meta().start);
         assert!(derivative_check(part.as_ref(), x).unwrap().disagreements == 0, "component {k}");
         let (n, m) = (meta.variables(), meta.rows());
-        local.turn_to(k);
+        local.select(k);
         let (mut rows, mut gradient, mut jacobian) = (vec![0.0; m], vec![0.0; n], vec![0.0; m * n]);
         let objective = local.first_order(x, &mut rows, &mut gradient, &mut jacobian);
         let (mut own_rows, mut own_gradient, mut own_jacobian) = (vec![0.0; m], vec![0.0; n], vec![0.0; meta.jacobian.len()]);

@@ -9,7 +9,8 @@ use super::failure::Failure;
 use super::{interrupt, output};
 use ribopt::files::whole;
 use ribopt::report::comparison::{self, Trial};
-use ribopt::report::{result::write_value, svg};
+use ribopt::report::pictures::performance_profile;
+use ribopt::report::result::write_value;
 use ribopt::run::{RunError, Subject, compare::compare};
 
 /// Compares all solvers on all files. All files are read first: a mistake in one is told before anything is run.
@@ -63,7 +64,7 @@ fn leave_profiles(trials: &[Trial], folder: &Path) -> io::Result<()> {
     for profile in comparison::profiles(trials) {
         let stem = format!("profile-{}", profile.measure);
         whole::write(&folder.join(format!("{stem}.csv")), |out| profile.write_csv(out))?;
-        whole::write(&folder.join(format!("{stem}.svg")), |out| out.write_all(svg::draw(&profile).as_bytes()))?;
+        whole::write(&folder.join(format!("{stem}.svg")), |out| out.write_all(performance_profile::draw(&profile).as_bytes()))?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::model::Budget;
 
 /// Longest time that is taken literally; beyond it there is no deadline.
-const CENTURY: f64 = 3e9;
+const NO_DEADLINE: f64 = 3e9;
 
 /// The deadline of the whole command and Ctrl-C.
 #[derive(Clone, Copy)]
@@ -18,7 +18,7 @@ pub(super) struct Clock<'a> {
 
 impl<'a> Clock<'a> {
     pub(super) fn new(max_seconds: f64, max_evaluations: u64, interrupt: Option<&'a AtomicBool>) -> Self {
-        let deadline = (max_seconds < CENTURY).then(|| Instant::now() + Duration::from_secs_f64(max_seconds.max(0.0)));
+        let deadline = (max_seconds < NO_DEADLINE).then(|| Instant::now() + Duration::from_secs_f64(max_seconds.max(0.0)));
         Clock { deadline, interrupt, max_evaluations }
     }
 
@@ -35,7 +35,7 @@ impl<'a> Clock<'a> {
         let now = Instant::now();
         let left = self.deadline.map_or(f64::INFINITY, |deadline| deadline.saturating_duration_since(now).as_secs_f64());
         let seconds = (left * share).min(most);
-        let deadline = (seconds < CENTURY).then(|| now + Duration::from_secs_f64(seconds));
+        let deadline = (seconds < NO_DEADLINE).then(|| now + Duration::from_secs_f64(seconds));
         Budget { max_evaluations: self.max_evaluations, deadline, interrupt: self.interrupt }
     }
 }

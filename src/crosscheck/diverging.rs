@@ -4,7 +4,7 @@ mod paths;
 
 use super::Answer;
 use super::session::{Session as Referee, Solver as Contestant};
-use crate::model::{Meta, Model, Rebounded};
+use crate::model::{Meta, Model, WithBounds};
 
 /// How the objective behaves along a feasible way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,7 +123,7 @@ fn corner(referee: &Referee<'_>, contestant: Contestant<'_>, width: f64) -> Opti
     let reach = |start: &f64| width * start.abs().max(1.0);
     let lower = meta.lower.iter().zip(&meta.start).map(|(bound, start)| bound.max(start - reach(start))).collect();
     let upper = meta.upper.iter().zip(&meta.start).map(|(bound, start)| bound.min(start + reach(start))).collect();
-    let model = Rebounded::new(referee.task.model, lower, upper);
+    let model = WithBounds::new(referee.task.model, lower, upper);
     let solution = referee.solve_aside(contestant, &model, &model.meta().start, referee.clock.share(0.3, 20.0));
     let feasible = referee.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= referee.tolerances.constraint);
     feasible.then_some(solution.x)

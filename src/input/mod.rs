@@ -1,16 +1,16 @@
 //! The problem file (TOML) and its tables (CSV) become a checked [`Problem`].
 //!
 //! Path → text (`load`) → tables of fields with places (`fields`) → the file as declared (`declaration`) → names
-//! looked up and numbers computed (`assemble`). Mistakes are collected on the way and shown in one go.
+//! looked up and numbers computed (`check`). Mistakes are collected on the way and shown in one go.
 
-mod assemble;
+mod check;
 mod declaration;
-mod declare;
 mod example;
 mod fields;
 mod findings;
 mod load;
 mod mistake;
+mod parse_tables;
 mod points;
 mod schema;
 mod source;
@@ -93,14 +93,15 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
     checksum.update(&bytes);
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let declared = declare::declare(document.get_ref(), &mut Reader { bounds: false, source: &source, findings: &mut findings });
+    let declared =
+        parse_tables::parse_tables(document.get_ref(), &mut Reader { bounds: false, source: &source, findings: &mut findings });
     if !errors.is_empty() {
         syntax(&source, &errors, &mut findings);
         return Err(findings.into_parts(&source, overrides).0);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut tables = Tables { folder, checksum: &mut checksum, watch };
-    let (mut problem, findings) = assemble::assemble(declared, &source, findings, overrides, &mut tables);
+    let (mut problem, findings) = check::check(declared, &source, findings, overrides, &mut tables);
     let clean = findings.clean();
     let files = std::iter::once(path.to_path_buf()).chain(findings.tables.iter().map(|(path, _)| path.clone())).collect();
     let (mistakes, warnings) = findings.into_parts(&source, overrides);

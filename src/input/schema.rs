@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::declare::{DEFAULT_DEGREE, PROFILE_KINDS};
+use super::parse_tables::{DEFAULT_DEGREE, PROFILE_KINDS};
 use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
 use crate::sections::{self, Form, Kind};
 

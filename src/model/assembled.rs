@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::components::{Apart, Components, Members};
+use super::chunked_evaluation::Chunks;
+use super::components::{ComponentView, Components, Members};
 use super::elements::{Group, Label};
-use super::stretches::Stretches;
 use super::{EvaluationError, Meta, Model, Own};
 use crate::problem::Problem;
 
@@ -65,7 +65,7 @@ pub struct RibModel {
     /// The components, once somebody asked.
     pub(super) members: OnceLock<Option<Members>>,
     /// How a large model is evaluated side by side, once somebody asked.
-    pub(super) stretches: OnceLock<Option<Stretches>>,
+    pub(super) chunks: OnceLock<Option<Chunks>>,
 }
 
 /// Where a row comes from.
@@ -94,9 +94,9 @@ impl RibModel {
         (count(&self.objective_groups), count(&self.row_groups), self.objective_groups.len() + self.row_groups.len())
     }
 
-    fn stretches(&self) -> Option<&Stretches> {
+    fn chunks(&self) -> Option<&Chunks> {
         let (n, m) = (self.meta.variables(), self.meta.rows());
-        self.stretches.get_or_init(|| Stretches::of(n, m, &self.objective_groups, &self.row_groups)).as_ref()
+        self.chunks.get_or_init(|| Chunks::of(n, m, &self.objective_groups, &self.row_groups)).as_ref()
     }
 
     fn invalid(&self, groups: &[Group], x: &[f64], fallback: &str) -> EvaluationError {
@@ -136,8 +136,8 @@ impl Model for RibModel {
 
     fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
         let groups = &self.objective_groups;
-        let sum = match self.stretches() {
-            Some(stretches) => stretches.gradient(&self.objective, groups, x, gradient),
+        let sum = match self.chunks() {
+            Some(chunks) => chunks.gradient(&self.objective, groups, x, gradient),
             None => {
                 self.objective.gradient(0, gradient);
                 let sum = groups.iter().map(|group| group.add_gradient(x, gradient)).sum();
@@ -153,8 +153,8 @@ impl Model for RibModel {
         for (value, constant) in values.iter_mut().zip(&self.row_constants) {
             *value += constant;
         }
-        let finite = match self.stretches() {
-            Some(stretches) => stretches.add_rows(&self.row_groups, x, values),
+        let finite = match self.chunks() {
+            Some(chunks) => chunks.add_rows(&self.row_groups, x, values),
             None => {
                 self.row_groups.iter().for_each(|group| group.add_rows(group.range(), x, 0, values));
                 all_finite(values)
@@ -164,8 +164,8 @@ impl Model for RibModel {
     }
 
     fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let finite = match self.stretches() {
-            Some(stretches) => stretches.jacobian(&self.linear_jacobian, &self.row_groups, &self.meta.jacobian, x, values),
+        let finite = match self.chunks() {
+            Some(chunks) => chunks.jacobian(&self.linear_jacobian, &self.row_groups, &self.meta.jacobian, x, values),
             None => {
                 values.copy_from_slice(&self.linear_jacobian);
                 self.row_groups.iter().for_each(|group| group.add_jacobian(group.range(), x, 0, values));
@@ -177,8 +177,8 @@ impl Model for RibModel {
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         let groups: Vec<&Group> = self.objective_groups.iter().chain(&self.row_groups).collect();
-        let finite = match self.stretches() {
-            Some(stretches) => stretches.hessian(&groups, &self.meta.hessian, x, (weight, y), values),
+        let finite = match self.chunks() {
+            Some(chunks) => chunks.hessian(&groups, &self.meta.hessian, x, (weight, y), values),
             None => {
                 values.fill(0.0);
                 groups.iter().for_each(|group| group.add_hessian(group.range(), x, weight, y, 0, values));
@@ -231,7 +231,7 @@ impl Model for RibModel {
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {
         let members = self.members.get_or_init(|| Members::of(self)).as_ref()?;
-        Some(Box::new(Apart { model: self, members }))
+        Some(Box::new(ComponentView { model: self, members }))
     }
 
     fn variable_name(&self, j: usize) -> String {

@@ -5,24 +5,16 @@
 
 mod assemble;
 mod assembled;
-pub mod augmented;
-pub mod bounds_only;
+mod chunked_evaluation;
 pub mod class;
 pub mod components;
 pub mod derivative_check;
-pub mod differences;
 pub mod domain;
-pub mod elastic;
 mod elements;
 pub mod evaluator;
-pub mod freed;
-pub mod logarithmic;
-pub mod rebounded;
 #[cfg(test)]
 pub(crate) mod sample;
-pub mod scaled;
-mod stretches;
-pub mod substitution;
+pub mod views;
 
 use thiserror::Error;
 
@@ -31,11 +23,8 @@ pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;
-pub use elastic::Elastic;
 pub use evaluator::{Budget, Evaluator};
-pub use freed::{Freed, Limit};
-pub use rebounded::Rebounded;
-pub use substitution::Substitution;
+pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};
 
 /// What is known of a model before any evaluation.
 #[derive(Debug, Clone, Default)]

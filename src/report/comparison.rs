@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::number::{exact, significant};
-use super::profile::Profile;
+use super::performance_profile::Profile;
 use super::text::TextTable;
 use crate::crosscheck::Status;
 

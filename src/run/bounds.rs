@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::{Choice, Subject};
 use crate::backends::Iteration;
 use crate::crosscheck::{self, Outcome, Task};
-use crate::model::bounds_only::BoundsOnly;
+use crate::model::views::bounds_only::BoundsOnly;
 use crate::model::{EvaluationError, Model};
 use crate::problem::{Origin, Problem};
 use crate::report::bounds::{End, Where};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{RunError, plausible};
 use crate::files::Inputs;
 use crate::input::{self, Progress};
-use crate::model::differences::Differences;
+use crate::model::views::flange_substitution::FlangeSubstitution;
 use crate::model::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify, volumes};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -176,8 +176,8 @@ fn is_dust(model: &RibModel) -> bool {
 
 /// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.
 fn differences(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Substitution + Send>> {
-    let pairs = Differences::pairs(problem);
-    (!pairs.is_empty()).then(|| Box::new(Differences::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
+    let pairs = FlangeSubstitution::pairs(problem);
+    (!pairs.is_empty()).then(|| Box::new(FlangeSubstitution::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
 }
 
 /// A row whose value is a total volume.

@@ -1,25 +1,18 @@
-//! The backend `argmin`, the only room naming that library: solvers of our own under its `Executor`, with a state of
-//! our own, watched by an argmin observer.
+//! The backend `argmin`, the only room naming that library: our own solvers under its `Executor`.
 
-mod augmented_lagrangian;
-mod components;
-mod interior_point;
-mod state;
+mod executor;
 #[cfg(test)]
 mod tests;
 
-use std::cell::RefCell;
 use std::time::Instant;
 
-use argmin::core::observers::ObserverMode;
-use argmin::core::{Executor, Solver};
-
-use super::{Backend, Iteration, Job, Solution, Termination};
-use crate::model::{EvaluationError, Evaluator, Model};
-use augmented_lagrangian::AugmentedLagrangian;
-use components::Components;
-use interior_point::InteriorPoint;
-use state::{Conclusion, NlpState, Watch};
+use super::{Backend, Job, Solution, Termination};
+use crate::model::{Evaluator, Model};
+use crate::solvers::augmented_lagrangian::{self, AugmentedLagrangian};
+use crate::solvers::block_interior_point::{self, BlockInteriorPoint};
+use crate::solvers::interior_point::InteriorPoint;
+use crate::solvers::{Conclusion, Why};
+use executor::{Finished, run};
 
 const INTERIOR_POINT: &str = "interior-point";
 const AUGMENTED_LAGRANGIAN: &str = "augmented-lagrangian";
@@ -59,80 +52,51 @@ impl Backend for Argmin {
         let began = Instant::now();
         let evaluator = Evaluator::new(model, job.budget);
         let (algorithm, finished) = match job.algorithm {
-            AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, augmented_lagrangian(&evaluator, job)),
-            _ if let Some(pieces) = components::fall_apart(&evaluator) => {
-                let solver = Components::new(pieces.as_ref(), &evaluator, job.start, job.start_multipliers);
-                (INTERIOR_POINT, run(solver, &evaluator, job))
-            }
-            _ => {
-                let solver = InteriorPoint::new(job.start.to_vec(), job.start_multipliers.map(<[f64]>::to_vec));
-                (INTERIOR_POINT, run(solver, &evaluator, job))
-            }
+            AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, by_augmented_lagrangian(&evaluator, job)),
+            _ => (INTERIOR_POINT, by_interior_point(&evaluator, job)),
         };
         solution(algorithm, finished, &evaluator, began)
     }
 }
 
-fn augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
-    match AugmentedLagrangian::new(evaluator, job) {
+fn by_interior_point(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
+    match block_interior_point::decomposes(evaluator) {
+        Some(components) => {
+            let solver = BlockInteriorPoint::new(evaluator, components.as_ref(), job.start, job.start_multipliers);
+            run(solver, evaluator, job)
+        }
+        None => {
+            let multipliers = job.start_multipliers.map(<[f64]>::to_vec);
+            run(InteriorPoint::new(evaluator, job.start.to_vec(), multipliers), evaluator, job)
+        }
+    }
+}
+
+fn by_augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
+    match AugmentedLagrangian::new(evaluator, job.start, job.start_multipliers, job.stop_test) {
         Ok(solver) => run(solver, evaluator, job),
-        Err(error) => Finished::without_value(job.start, &error),
-    }
-}
-
-/// Runs a solver under argmin's executor.
-fn run<'a, S>(solver: S, evaluator: &'a Evaluator<'a>, job: &mut Job<'_>) -> Finished
-where
-    S: for<'s> Solver<&'a Evaluator<'a>, NlpState<'s>>,
-{
-    let observer = RefCell::new(&mut *job.observer);
-    let report = |iteration: &Iteration<'_>| (observer.borrow_mut())(iteration);
-    let executor = Executor::new(evaluator, solver)
-        .configure(|state: NlpState<'_>| {
-            state.start(job.start).max_iterations(job.max_iterations).tolerance(job.constraint_tolerance).report_to(&report)
-        })
-        .add_observer(Watch, ObserverMode::Always)
-        // The process has one handler, and the command line owns it.
-        .ctrlc(false);
-    match executor.run() {
-        Ok(result) => result.state.finish(),
-        Err(error) => Finished::failed(job.start, error.to_string()),
-    }
-}
-
-/// What a run leaves behind.
-struct Finished {
-    termination: Termination,
-    message: String,
-    invalid: Option<String>,
-    x: Vec<f64>,
-    multipliers: Option<Vec<f64>>,
-    iterations: u64,
-}
-
-impl Finished {
-    fn without_value(start: &[f64], error: &EvaluationError) -> Self {
-        let Conclusion { termination, message, invalid } = Conclusion::of(error);
-        Finished { termination, invalid, ..Self::failed(start, message) }
-    }
-
-    fn failed(start: &[f64], message: String) -> Self {
-        let termination = Termination::Failed;
-        Finished { termination, message, invalid: None, x: start.to_vec(), multipliers: None, iterations: 0 }
+        Err(error) => Finished::at_start(job.start, Conclusion::of(&error)),
     }
 }
 
 fn solution(algorithm: &str, run: Finished, evaluator: &Evaluator<'_>, began: Instant) -> Solution {
+    let Finished { conclusion: Conclusion { why, message, invalid }, x, multipliers, iterations } = run;
+    let termination = match why {
+        Why::Converged => Termination::Converged,
+        Why::LimitReached => Termination::LimitReached,
+        Why::Interrupted => Termination::Interrupted,
+        Why::Failed => Termination::Failed,
+    };
     Solution {
         algorithm: algorithm.into(),
-        termination: run.termination,
-        message: run.message,
-        x: run.x,
-        multipliers: run.multipliers,
-        iterations: Some(run.iterations),
+        termination,
+        message,
+        x,
+        multipliers,
+        iterations: Some(iterations),
         evaluations: evaluator.evaluations(),
         seconds: began.elapsed().as_secs_f64(),
-        invalid: run.invalid,
+        invalid,
     }
 }
 

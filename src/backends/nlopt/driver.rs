@@ -2,10 +2,10 @@
 
 use super::attempt::{End, run};
 use super::form::Form;
-use super::plan::{From, Step};
+use super::plan::{StartPoint, Step};
 use super::watch::Watch;
 use crate::math::split_mix::SplitMix;
-use crate::model::scaled::valid_start;
+use crate::model::views::scaled::valid_start;
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
 
 /// Share of a variable's size by which a point beside another lies apart: far enough to leave a flat region of third order,
@@ -55,9 +55,9 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
         |x: &[f64]| x.iter().zip(start).enumerate().map(|(j, (&x, &start))| size(j, x, start, evaluator.meta())).collect();
     let best = watch.best().map_or(start, |best| &best.x);
     let mut origin = match step.from {
-        From::Start => start.to_vec(),
-        From::Best => best.to_vec(),
-        From::Beside => beside(best, evaluator.meta()),
+        StartPoint::Start => start.to_vec(),
+        StartPoint::Best => best.to_vec(),
+        StartPoint::Beside => beside(best, evaluator.meta()),
     };
     evaluator.meta().clamp(&mut origin);
     let form = valid_start(evaluator, &origin, sizes).and_then(|(x, scales)| {

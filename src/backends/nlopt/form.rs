@@ -1,7 +1,7 @@
 //! From the one form to NLopt's: minimise f(w) subject to g(w) ≤ 0, h(w) = 0 and bounds with room between them.
 
 use super::independent;
-use crate::model::scaled::{Scaled, Scales};
+use crate::model::views::scaled::{Scaled, Scales};
 use crate::model::{EvaluationError, Meta, Model};
 
 /// One side of a row: sign·(c_row − limit), scaled.

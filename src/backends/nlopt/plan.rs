@@ -15,7 +15,7 @@ use crate::model::Meta;
 
 /// Where an attempt starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum From {
+pub(super) enum StartPoint {
     /// The job's start.
     Start,
     /// The best point so far.
@@ -30,7 +30,7 @@ pub(super) struct Step {
     /// The algorithm.
     pub algorithm: &'static Algorithm,
     /// Where it starts.
-    pub from: From,
+    pub from: StartPoint,
     /// Evaluations at the most.
     pub evaluations: u64,
 }
@@ -40,7 +40,7 @@ pub(super) fn named(algorithm: &'static Algorithm, meta: &Meta) -> Vec<Step> {
     let n = meta.variables() as u64;
     let evaluations = algorithm.evaluations_per_variable.map_or(100_000 + 100 * n, |each| each * (n + 1));
     let is_local = algorithm.gradients && algorithm.evaluations_per_variable.is_none();
-    let starts: &[From] = if is_local { &[From::Start, From::Best] } else { &[From::Start] };
+    let starts: &[StartPoint] = if is_local { &[StartPoint::Start, StartPoint::Best] } else { &[StartPoint::Start] };
     starts.iter().map(|&from| Step { algorithm, from, evaluations }).collect()
 }
 
@@ -67,14 +67,15 @@ pub(super) fn automatic(meta: &Meta) -> Vec<Step> {
         0 => &[("lbfgs", &["slsqp", "tnewton"])],
         _ => &[("slsqp", &["slsqp"]), ("mma", &[]), ("auglag", &[])],
     };
-    let found = ways.iter().find_map(|&(first, then)| Some((step(first, From::Start, meta)?, then)));
+    let found = ways.iter().find_map(|&(first, then)| Some((step(first, StartPoint::Start, meta)?, then)));
     let Some((first, then)) = found else { return Vec::new() };
-    let polish = then.iter().find_map(|&name| step(name, From::Best, meta));
-    let beside = polish.filter(|polish| polish.algorithm.name == "slsqp").map(|polish| Step { from: From::Beside, ..polish });
+    let polish = then.iter().find_map(|&name| step(name, StartPoint::Best, meta));
+    let beside =
+        polish.filter(|polish| polish.algorithm.name == "slsqp").map(|polish| Step { from: StartPoint::Beside, ..polish });
     [first].into_iter().chain(polish).chain(beside).collect()
 }
 
-fn step(name: &str, from: From, meta: &Meta) -> Option<Step> {
+fn step(name: &str, from: StartPoint, meta: &Meta) -> Option<Step> {
     let algorithm = find(name)?;
     let wanted = if name == "auglag" { 20_000 } else { 2_000 + 20 * meta.variables() as u64 };
     let evaluations = algorithm.affordable(meta, wanted);

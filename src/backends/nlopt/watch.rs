@@ -33,7 +33,7 @@ const UNBOUNDED: f64 = -1e20;
 /// Violations count as none up to this share of the tolerance: f is cheaper where rows are cheated.
 const ACCEPTED: f64 = 1e-3;
 /// Evaluations that may follow a certified point, so that the answer is better than just accepted.
-const AFTERGLOW: u64 = 40;
+const EXTRA_ITERATIONS_AFTER_PASS: u64 = 40;
 /// The longest wait between two stop tests, in evaluations.
 const LONGEST_GAP: u64 = 2_000;
 
@@ -47,7 +47,7 @@ pub(super) struct Watch<'w, 'j> {
     gap: u64,
     next_test: u64,
     /// Where an attempt that has proved a point ends.
-    glow_ends: u64,
+    ends_at: u64,
     is_unbounded: bool,
     /// The objective's scale at the start: later attempts begin far out, where it says nothing.
     unit: Option<f64>,
@@ -65,7 +65,7 @@ impl<'w, 'j> Watch<'w, 'j> {
             iterations: 0,
             gap: 1,
             next_test: 0,
-            glow_ends: u64::MAX,
+            ends_at: u64::MAX,
             is_unbounded: false,
             unit: None,
         }
@@ -103,7 +103,7 @@ impl<'w, 'j> Watch<'w, 'j> {
 
     /// A new attempt begins: it is not ended by what an earlier one proved.
     pub fn begin(&mut self) {
-        (self.gap, self.next_test, self.glow_ends) = (1, 0, u64::MAX);
+        (self.gap, self.next_test, self.ends_at) = (1, 0, u64::MAX);
     }
 
     /// Judges the best point's violation anew: another attempt scales rows differently.
@@ -128,7 +128,7 @@ impl<'w, 'j> Watch<'w, 'j> {
                 self.test(candidate, evaluations);
             }
         }
-        self.is_unbounded || evaluations >= self.glow_ends || self.iterations >= self.job.max_iterations
+        self.is_unbounded || evaluations >= self.ends_at || self.iterations >= self.job.max_iterations
     }
 
     fn unit(&mut self, candidate: &Candidate) -> f64 {
@@ -166,7 +166,7 @@ impl<'w, 'j> Watch<'w, 'j> {
     }
 
     fn keep(&mut self, candidate: Candidate, evaluations: u64) {
-        self.glow_ends = self.glow_ends.min(evaluations + AFTERGLOW);
+        self.ends_at = self.ends_at.min(evaluations + EXTRA_ITERATIONS_AFTER_PASS);
         self.proved = Some(candidate);
     }
 

@@ -2,7 +2,7 @@
 //! minimum.
 
 use super::{Relaxed, Work};
-use crate::model::Rebounded;
+use crate::model::WithBounds;
 
 /// Limits tried at the most.
 const TRIED: usize = 60;
@@ -97,7 +97,7 @@ impl Trial<'_, '_> {
         };
         let lower = (0..meta.variables()).map(|j| if keeps(j, false) { meta.lower[j] } else { f64::NEG_INFINITY });
         let upper = (0..meta.variables()).map(|j| if keeps(j, true) { meta.upper[j] } else { f64::INFINITY });
-        let model = Rebounded::new(self.work.model, lower.collect(), upper.collect());
+        let model = WithBounds::new(self.work.model, lower.collect(), upper.collect());
         match self.work.relax_model(&model, &rows, self.start).filter(|relaxed| relaxed.certificate.certified) {
             Some(relaxed) if relaxed.violation > self.work.least() => Decision::Conflict(self.work.members(&relaxed)),
             Some(_) => Decision::Compatible,

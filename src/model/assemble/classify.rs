@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use super::facts::Facts;
-use super::lower::Context;
-use super::survey::{Bend, Survey};
+use super::dependence::Dependence;
+use super::expression_graph::Context;
+use super::structure_of_rows::{Bend, RowStructure};
 use super::walk::Walk;
 use super::{AssemblyError, context};
 use crate::expression::structure::Wanted;
-use crate::model::logarithmic::Logarithmic;
+use crate::model::views::logarithmic::Logarithmic;
 use crate::model::{Class, Model, RibModel};
 use crate::problem::ratio::Ratio;
 use crate::problem::{Constraint, Formula, Limit, Problem, Sense};
@@ -31,7 +31,7 @@ pub struct Classification {
 /// As [`super::assemble`], for the rows restated as ratios.
 pub fn classify(model: &RibModel) -> Result<Classification, AssemblyError> {
     let problem = model.problem();
-    let facts = Facts::of(problem);
+    let facts = Dependence::of(problem);
     let judge = Judge { problem, facts: &facts };
     let not_convex = judge.not_convex()?;
     let meta = model.meta();
@@ -53,7 +53,7 @@ pub fn classify(model: &RibModel) -> Result<Classification, AssemblyError> {
 
 struct Judge<'a> {
     problem: &'a Arc<Problem>,
-    facts: &'a Facts,
+    facts: &'a Dependence,
 }
 
 /// One constraint as a ratio against a limit.
@@ -73,8 +73,8 @@ struct Geometric {
 
 impl Judge<'_> {
     /// What every row of a constraint (with this left side) is.
-    fn rows(&self, constraint: &Constraint, left: &Formula) -> Result<Survey<'_>, AssemblyError> {
-        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), Survey::new(self.problem));
+    fn rows(&self, constraint: &Constraint, left: &Formula) -> Result<RowStructure<'_>, AssemblyError> {
+        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), RowStructure::new(self.problem));
         for item in 0..constraint.scope.rows() {
             survey.add(left, &mut walk, context(&constraint.scope, item)).map_err(|cause| AssemblyError {
                 place: format!("{} (constraint {})", constraint.place, constraint.name),
@@ -84,8 +84,8 @@ impl Judge<'_> {
         Ok(survey)
     }
 
-    fn objective(&self, formula: &Formula) -> Result<Survey<'_>, AssemblyError> {
-        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), Survey::new(self.problem));
+    fn objective(&self, formula: &Formula) -> Result<RowStructure<'_>, AssemblyError> {
+        let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), RowStructure::new(self.problem));
         let surveyed = survey.add(formula, &mut walk, Context::GLOBAL);
         surveyed.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;
         Ok(survey)
@@ -200,7 +200,7 @@ fn holds(wanted: Wanted, bend: Bend) -> bool {
     }
 }
 
-fn words(place: &str, survey: &Survey, wanted: Wanted) -> String {
+fn words(place: &str, survey: &RowStructure, wanted: Wanted) -> String {
     let property = match wanted {
         Wanted::Convex => "convex",
         Wanted::Concave => "concave",

@@ -1,15 +1,30 @@
 //! From a checked problem to a model: every sum falls into small elements, every element shares its kernel with its like.
+//!
+//! | step | file | what happens |
+//! |---|---|---|
+//! | 1 | `dependence` | asked once of every definition and section: does it hold variables, does it reach over items? |
+//! | 2 | `walk` | a formula is followed to its terms: sums over items fall into pieces, each with its weight |
+//! | 3 | `template_key` | which variables and numbers of an item a piece needs, and in which slots |
+//! | 4 | `template_arguments` | these variables and numbers of one item; items of the same shape share a template |
+//! | 5 | `expression_graph`, `profile` | the piece becomes a graph of operations over its slots |
+//! | 6 | `template` | the graph compiled: constant, affine terms, terms with a kernel |
+//! | 7 | `kernel_groups` | equal kernels once, their elements side by side |
+//! | 8 | `accumulate` | the pieces added to the objective or to a row |
+//! | 9 | `mod` | patterns of all derivatives, and where each element's go in them |
+//!
+//! A walk hands its pieces to a `Sink`, and there are two: `accumulate` adds them up; `structure_of_rows` asks what their shape
+//! proves, from which `classify` tells the class of the problem. `volumes` sums the ribs' volumes alone.
 
+mod accumulate;
 mod classify;
-mod facts;
-mod gathered;
-mod groups;
-mod lower;
-mod plan;
+mod dependence;
+mod expression_graph;
+mod kernel_groups;
 mod profile;
-mod sum;
-mod survey;
+mod structure_of_rows;
 mod template;
+mod template_arguments;
+mod template_key;
 mod volumes;
 mod walk;
 
@@ -21,11 +36,11 @@ use super::assembled::{Affine, RibModel, RowOrigin};
 use super::{Meta, Model, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
+use accumulate::{Summation, Templates};
 pub use classify::{Classification, classify};
-use facts::Facts;
-use groups::{Groups, Kernels};
-use lower::{Context, Item};
-use sum::{Summation, Templates};
+use dependence::Dependence;
+use expression_graph::{Context, Item};
+use kernel_groups::{Groups, Kernels};
 pub use volumes::volumes;
 use walk::Walk;
 
@@ -55,7 +70,7 @@ fn assemble_with<'a>(
     problem: &'a Arc<Problem>,
     sides: impl Iterator<Item = (&'a Formula, &'a Limit)>,
 ) -> Result<RibModel, AssemblyError> {
-    let (facts, mut kernels) = (Facts::of(problem), Kernels::default());
+    let (facts, mut kernels) = (Dependence::of(problem), Kernels::default());
     let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
     let rows = Rows::of(problem, sides, &facts, &mut kernels)?;
     let mut model = connect(problem, objective, objective_groups.into_list(), rows);
@@ -65,7 +80,7 @@ fn assemble_with<'a>(
     Ok(model)
 }
 
-fn objective(problem: &Problem, facts: &Facts, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
+fn objective(problem: &Problem, facts: &Dependence, kernels: &mut Kernels) -> Result<(Affine, Groups), AssemblyError> {
     let sign = match problem.sense {
         Sense::Minimize => 1.0,
         Sense::Maximize => -1.0,
@@ -112,7 +127,7 @@ impl Rows {
     fn of<'a>(
         problem: &Problem,
         sides: impl Iterator<Item = (&'a Formula, &'a Limit)>,
-        facts: &Facts,
+        facts: &Dependence,
         kernels: &mut Kernels,
     ) -> Result<Rows, AssemblyError> {
         let mut rows = Rows::default();
@@ -238,6 +253,6 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         row_groups,
         row_origin: rows.origin,
         members: OnceLock::new(),
-        stretches: OnceLock::new(),
+        chunks: OnceLock::new(),
     }
 }

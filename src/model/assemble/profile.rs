@@ -1,6 +1,6 @@
 //! Profiles whose parameter follows from the item's data.
 
-use super::lower::{Context, Item, Lowering};
+use super::expression_graph::{Context, Item, Lowering};
 use crate::expression::graph::NodeId;
 use crate::problem::Formula;
 use crate::problem::evaluate::{self, Evaluation};

@@ -1,6 +1,6 @@
 //! A formula compiled once for all items of one shape: constant, affine terms, and terms with a kernel.
 
-use super::groups::{Groups, Kernels};
+use super::kernel_groups::{Groups, Kernels};
 use crate::expression::degree::Degrees;
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::tape::{Literals, Program, Source, Tape, TapeError, Workspace};

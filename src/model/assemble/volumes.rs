@@ -1,6 +1,6 @@
 //! Total volumes at a point by the closed forms, without a model.
 
-use super::lower::law_of;
+use super::expression_graph::law_of;
 use crate::problem::formula::Total;
 use crate::problem::{Dimension, Problem};
 use crate::ribs::Part;

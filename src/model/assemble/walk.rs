@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::facts::Facts;
-use super::gathered::Gathered;
-use super::lower::{Context, Item, Lowering, OwnNumber, item_of, law_of, members};
-use super::plan::Plan;
+use super::dependence::Dependence;
+use super::expression_graph::{Context, Item, Lowering, OwnNumber, item_of, law_of, members};
+use super::template_arguments::TemplateArguments;
+use super::template_key::TemplateKey;
 use crate::expression::graph::NodeId;
 use crate::expression::operators::{Binary, Fold, Unary};
 use crate::expression::tape::TapeError;
@@ -26,11 +26,11 @@ pub(super) struct Piece<'p> {
     /// What it stands for; `None` where it shares nothing with others.
     pub work: Option<Work>,
     /// The item's variables, numbers and shape, where it may share.
-    pub gathered: &'p Gathered,
+    pub gathered: &'p TemplateArguments,
     pub weight: f64,
     /// The rib whose volume it is.
     pub rib: Option<u32>,
-    plan: &'p Plan,
+    plan: &'p TemplateKey,
     item: Item,
     lower: &'p dyn Fn(&mut Lowering) -> NodeId,
 }
@@ -60,9 +60,9 @@ pub(super) trait Sink {
 /// Walks formulas of one problem.
 pub(super) struct Walk<'a> {
     pub problem: &'a Problem,
-    facts: &'a Facts,
-    plans: HashMap<Work, Plan>,
-    gathered: Gathered,
+    facts: &'a Dependence,
+    plans: HashMap<Work, TemplateKey>,
+    gathered: TemplateArguments,
     /// Definitions opened in the formula being visited.
     opened: usize,
 }
@@ -71,8 +71,8 @@ pub(super) struct Walk<'a> {
 const MOST_OPENED: usize = 256;
 
 impl<'a> Walk<'a> {
-    pub fn new(problem: &'a Problem, facts: &'a Facts) -> Self {
-        Walk { problem, facts, plans: HashMap::new(), gathered: Gathered::default(), opened: 0 }
+    pub fn new(problem: &'a Problem, facts: &'a Dependence) -> Self {
+        Walk { problem, facts, plans: HashMap::new(), gathered: TemplateArguments::default(), opened: 0 }
     }
 
     /// Hands the pieces of `weight · formula` to the sink.
@@ -84,7 +84,7 @@ impl<'a> Walk<'a> {
     fn take_apart(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
         if !self.facts.reaches_items(formula) {
             let (work, problem) = (Work::Formula(std::ptr::from_ref(formula) as usize), self.problem);
-            self.plans.entry(work).or_insert_with(|| Plan::of(problem, formula));
+            self.plans.entry(work).or_insert_with(|| TemplateKey::of(problem, formula));
             return self.piece(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
         }
         match formula {
@@ -132,7 +132,7 @@ impl<'a> Walk<'a> {
 
     /// What cannot be taken apart is one piece that shares nothing.
     fn whole(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
-        let (plan, gathered) = (Plan::default(), Gathered::default());
+        let (plan, gathered) = (TemplateKey::default(), TemplateArguments::default());
         let lower = |lowering: &mut Lowering| lowering.formula(formula, context);
         sink.piece(&Piece { work: None, gathered: &gathered, weight, rib: None, plan: &plan, item: context.item, lower: &lower })
     }
@@ -156,7 +156,7 @@ impl<'a> Walk<'a> {
             return Ok(());
         }
         let work = Work::Volume(law);
-        self.plans.entry(work).or_insert_with(Plan::volume);
+        self.plans.entry(work).or_insert_with(TemplateKey::volume);
         self.piece(work, weight, Item::Rib(rib), Some(rib), sink, &|lowering| lowering.own_volume(rib, law))
     }
 

@@ -1,19 +1,19 @@
 //! One component of a rib model at a time, evaluated densely from the parent's elements.
 
 use super::members::{self, Members};
-use super::{Components, Local, Partition, part::Part};
+use super::{Components, Local, Partition, submodel::Submodel};
 use crate::expression::kernel::Kernel;
 use crate::expression::tape::Workspace;
 use crate::model::{Model, RibModel};
 
-/// A rib model that falls apart.
+/// A rib model that falls view.
 #[derive(Clone, Copy)]
-pub(in crate::model) struct Apart<'a> {
+pub(in crate::model) struct ComponentView<'a> {
     pub model: &'a RibModel,
     pub members: &'a Members,
 }
 
-impl Components for Apart<'_> {
+impl Components for ComponentView<'_> {
     fn partition(&self) -> &Partition {
         &self.members.partition
     }
@@ -28,7 +28,7 @@ impl Components for Apart<'_> {
 
     fn local(&self) -> Box<dyn Local + '_> {
         Box::new(RibLocal {
-            apart: *self,
+            view: *self,
             elements: Vec::new(),
             inputs: Vec::new(),
             linear: Vec::new(),
@@ -39,7 +39,7 @@ impl Components for Apart<'_> {
     }
 
     fn model(&self, component: usize) -> Box<dyn Model + '_> {
-        Box::new(Part::of(*self, component))
+        Box::new(Submodel::of(*self, component))
     }
 }
 
@@ -61,7 +61,7 @@ struct Scratch {
 }
 
 struct RibLocal<'a> {
-    apart: Apart<'a>,
+    view: ComponentView<'a>,
     elements: Vec<Element<'a>>,
     inputs: Vec<u32>,
     /// The objective's affine part.
@@ -101,8 +101,8 @@ impl RibLocal<'_> {
 }
 
 impl Local for RibLocal<'_> {
-    fn turn_to(&mut self, component: usize) {
-        let Apart { model, members } = self.apart;
+    fn select(&mut self, component: usize) {
+        let ComponentView { model, members } = self.view;
         let (partition, pattern) = (&members.partition, &model.meta.jacobian);
         self.elements.clear();
         self.inputs.clear();

@@ -5,14 +5,14 @@
 //! | `partition` | which variables and rows belong together |
 //! | `members` | which elements of a rib model belong to which component |
 //! | `local` | one component of a rib model, evaluated densely |
-//! | `part` | one component as a model of its own |
+//! | `submodel` | one component as a model of its own |
 
 mod local;
 mod members;
-mod part;
+mod submodel;
 
 pub use crate::linear_algebra::Partition;
-pub(super) use local::Apart;
+pub(super) use local::ComponentView;
 pub use members::Members;
 
 use super::Model;
@@ -42,7 +42,7 @@ pub trait Components: Sync {
 /// Nothing is guarded here: outside the domain there come NaN or infinities, and callers must look.
 pub trait Local {
     /// Turns to another component. Evaluations before the first call see an empty one.
-    fn turn_to(&mut self, component: usize);
+    fn select(&mut self, component: usize);
 
     /// f(x); rows are overwritten by c(x).
     fn values(&mut self, x: &[f64], rows: &mut [f64]) -> f64;

@@ -8,6 +8,7 @@ mod convergence;
 mod cross_sections;
 mod elevation;
 mod network;
+pub mod performance_profile;
 mod profiles;
 
 pub use chains::longest_line;

@@ -1,5 +1,6 @@
 //! The backend on small models whose answers are known.
 
+mod augmented_lagrangian;
 mod degenerate;
 mod hock_schittkowski;
 mod large;

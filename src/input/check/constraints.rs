@@ -1,0 +1,167 @@
+//! `[[constraints]]`: the items each is repeated for, and its rows.
+
+use std::collections::HashMap;
+
+use super::Assembly;
+use crate::expression::ast::Collection;
+use crate::expression::parse::parse_condition;
+use crate::input::declaration::{ConstraintEntry, Name};
+use crate::input::source::{Place, Written};
+use crate::problem::glob::matches;
+use crate::problem::nearest::did_you_mean;
+use crate::problem::resolve::{Filter, ItemScope, Stage};
+use crate::problem::{Cells, Constraint, Scope};
+use crate::sections;
+
+impl Assembly<'_> {
+    /// All constraints, in the file's order.
+    pub(super) fn constraints(&mut self, entries: &[ConstraintEntry]) {
+        let mut names: HashMap<String, Place> = HashMap::new();
+        for (at, entry) in entries.iter().enumerate() {
+            let name = entry.name.as_ref().map_or_else(|| format!("c{}", at + 1), |name| name.text.clone());
+            self.new_row_name(entry, &name, &mut names);
+            self.constraint(entry, name);
+        }
+    }
+
+    fn new_row_name(&mut self, entry: &ConstraintEntry, name: &str, names: &mut HashMap<String, Place>) {
+        let place = entry.name.as_ref().map_or(entry.place, |name: &Name| name.place);
+        if let Some(first) = names.insert(name.to_owned(), place) {
+            let help = format!("the first is declared at {}; rename one of them", self.spoken(first));
+            self.findings.mistake(place, format!("two constraints are called `{name}`"), help);
+        }
+    }
+
+    fn constraint(&mut self, entry: &ConstraintEntry, name: String) {
+        let scoped = match entry.repeated {
+            Some(collection) => match self.scope(entry, collection, &name) {
+                Some(scope) => Some(scope),
+                None => return,
+            },
+            None if entry.only.is_empty() && entry.by.is_none() => None,
+            None => return, // `for` is wrong or missing: a mistake already
+        };
+        let (item_scope, scope) = match scoped {
+            Some((item_scope, scope)) => (Some(item_scope), scope),
+            None => (None, Scope::Once),
+        };
+        let Some(require) = &entry.require else { return };
+        let place = self.spoken(entry.place);
+        for (name, left, right) in self.requirement(require, item_scope.as_ref(), &scope, &name) {
+            let (place, text) = (place.clone(), require.text.clone());
+            self.problem.constraints.push(Constraint { name, place, text, scope: scope.clone(), left, right });
+        }
+    }
+
+    /// The chosen items; `None` where none are left (a warning) or after a mistake.
+    fn scope(&mut self, entry: &ConstraintEntry, collection: Collection, name: &str) -> Option<(ItemScope, Scope)> {
+        let mut scope = ItemScope::all(&self.problem, collection);
+        if !entry.only.is_empty() {
+            self.warn_idle_patterns(&entry.only, &scope);
+            let wanted = |item: &str| entry.only.iter().any(|pattern| matches(&pattern.text, item));
+            scope = self.thinned(&scope, |assembly, index| wanted(assembly.problem.item_name(collection, index)));
+        }
+        if let Some(kind) = &entry.kind {
+            let kind = self.kind(&kind.text, kind.place)?.name();
+            let is_kind = |form: u16| sections::kind_of(form).name() == kind;
+            scope = self.thinned(&scope, |assembly, index| assembly.problem.kind_of(collection, index).is_some_and(is_kind));
+        }
+        if let Some(written) = &entry.filter {
+            let members = self.filtered(written, &scope)?;
+            scope = ItemScope::of(&self.problem, collection, members);
+        }
+        if scope.members.is_empty() {
+            let place = entry.name.as_ref().map_or(entry.place, |name| name.place);
+            let message = format!("constraint `{name}` concerns nothing: no item is chosen");
+            self.findings.warning(place, message, "it is left out");
+            return None;
+        }
+        let rows = match (&entry.by, collection) {
+            (Some(by), _) => self.groups(by, &mut scope)?,
+            (None, Collection::Sections) => Scope::Sections(scope.members.clone()),
+            (None, Collection::Ribs) => Scope::Ribs(scope.members.clone()),
+        };
+        Some((scope, rows))
+    }
+
+    fn thinned(&self, scope: &ItemScope, keep: impl Fn(&Self, u32) -> bool) -> ItemScope {
+        let members = scope.members.iter().copied().filter(|&index| keep(self, index)).collect();
+        ItemScope::of(&self.problem, scope.collection, members)
+    }
+
+    fn warn_idle_patterns(&mut self, patterns: &[Written], scope: &ItemScope) {
+        for pattern in patterns {
+            let hit = |&index: &u32| matches(&pattern.text, self.problem.item_name(scope.collection, index));
+            if !scope.members.iter().any(hit) {
+                let names = scope.members.iter().take(10_000).map(|&index| self.problem.item_name(scope.collection, index));
+                let help = did_you_mean(&pattern.text, names);
+                self.findings.warning(pattern.place, format!("pattern `{}` matches nothing", pattern.text), help);
+            }
+        }
+    }
+
+    fn filtered(&mut self, written: &Written, scope: &ItemScope) -> Option<Vec<u32>> {
+        let tree = self.parsed(written, parse_condition)?;
+        let filter = self.resolved(written, Some(scope), Stage::All, |resolver| resolver.condition(&tree))?;
+        match filter.choose(&self.problem, scope) {
+            Ok(members) => Some(members),
+            Err(message) => {
+                self.findings.mistake(written.place, message, Filter::REMEDY);
+                None
+            }
+        }
+    }
+
+    /// Groups by the values of a data column, in the order in which they first occur.
+    fn groups(&mut self, by: &Written, scope: &mut ItemScope) -> Option<Scope> {
+        let collection = scope.collection;
+        let columns = self.problem.columns(collection);
+        let Some(at) = columns.iter().position(|column| column.name == by.text) else {
+            let help = did_you_mean(&by.text, columns.iter().map(|column| &*column.name));
+            let help = help.unwrap_or_else(|| "`by` names a datum of the items".into());
+            self.findings.mistake(by.place, format!("there is no datum `{}`", by.text), help);
+            return None;
+        };
+        let label = |index: u32| match &columns[at].cells {
+            Cells::Labels { .. } => self.problem.label(collection, at as u32, index).map(str::to_owned),
+            Cells::Numbers(numbers) => numbers.get(index as usize).filter(|value| !value.is_nan()).map(f64::to_string),
+        };
+        let mut numbers: HashMap<String, usize> = HashMap::new();
+        let mut groups: Vec<(Box<str>, Vec<u32>)> = Vec::new();
+        let mut empty = Vec::new();
+        for &index in &scope.members {
+            let Some(label) = label(index) else {
+                empty.push(index);
+                continue;
+            };
+            let group = *numbers.entry(label).or_insert_with_key(|label| {
+                groups.push((label.as_str().into(), Vec::new()));
+                groups.len() - 1
+            });
+            groups[group].1.push(index);
+        }
+        self.used.push((collection, at as u32));
+        if let Some(&first) = empty.first() {
+            self.empty_cell(collection, first, &by.text, empty.len(), &format!("`by` at {}", self.spoken(by.place)));
+            return None;
+        }
+        scope.grouped = true;
+        Some(match collection {
+            Collection::Ribs => Scope::RibGroups(groups),
+            Collection::Sections => Scope::SectionGroups(groups),
+        })
+    }
+
+    /// The mistake of an empty cell that is used, at its row.
+    pub(super) fn empty_cell(&mut self, collection: Collection, item: u32, column: &str, count: usize, user: &str) {
+        let (word, places) = match collection {
+            Collection::Sections => ("section", &self.section_places),
+            Collection::Ribs => ("rib", &self.rib_places),
+        };
+        let place = places.get(item as usize).copied().unwrap_or(Place::Whole);
+        let name = self.problem.item_name(collection, item);
+        let more = if count > 1 { format!(" (and of {} more)", count - 1) } else { String::new() };
+        let message = format!("`{column}` of {word} `{name}`{more} is empty, but {user} uses it");
+        self.findings.mistake(place, message, "fill the cell, or choose among the items with `only` or `where`");
+    }
+}

@@ -1,0 +1,249 @@
+//! From the file as declared to the checked problem: names looked up, numbers computed, sizes compared.
+
+mod constants;
+mod constraints;
+mod data;
+mod existence;
+mod items;
+mod links;
+mod outlines;
+mod overrides;
+mod profiles;
+mod requirement;
+mod tables;
+mod unused;
+mod variables;
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::declaration::{Declaration, Name};
+use super::fields::Scalar;
+use super::findings::Findings;
+use super::source::{Place, Source, Written};
+use super::table::Tables;
+use crate::expression::ast::Collection;
+use crate::expression::parse::{parse, parse_requirement};
+use crate::geometry::polygon::Ring;
+use crate::problem::names::{Entity, Names};
+use crate::problem::resolve::{Stage, Value, World};
+use crate::problem::{Problem, Sense};
+use data::DataColumns;
+use links::Link;
+
+/// The problem while it is put together. What only reading needs is dropped in the end.
+pub(super) struct Assembly<'a> {
+    source: &'a Source,
+    pub findings: Findings,
+    pub problem: Problem,
+    names: Names,
+    /// Where parameters, variables and definitions are declared.
+    declared_at: HashMap<String, Place>,
+    parameters: Vec<Option<Value>>,
+    variables: Vec<(u32, Option<u32>)>,
+    definitions: Vec<Option<Value>>,
+    section_places: Vec<Place>,
+    rib_places: Vec<Place>,
+    /// Places of dimensions in the problem file (rows of tables have their line).
+    dimension_places: HashMap<(u32, u8), Place>,
+    section_data: DataColumns,
+    rib_data: DataColumns,
+    /// Dimensions given by expressions.
+    links: Vec<Link>,
+    /// The texts of those expressions, each once.
+    texts: Vec<Written>,
+    text_numbers: HashMap<String, u32>,
+    /// Points of tables' cells by their text, each kept once.
+    points: HashMap<String, Option<Arc<Vec<Ring>>>>,
+    used: Vec<(Collection, u32)>,
+    /// What a table could not give.
+    without: Without,
+}
+
+/// What tables could not give: what is missing for that reason is no further mistake.
+#[derive(Default)]
+struct Without {
+    /// Some of the sections, as rows were passed over.
+    sections: bool,
+    /// A whole table.
+    table: bool,
+}
+
+/// Puts the problem together, reading the tables on the way.
+pub(super) fn check(
+    mut declared: Declaration,
+    source: &Source,
+    findings: Findings,
+    arguments: &[String],
+    tables: &mut Tables<'_>,
+) -> (Problem, Findings) {
+    let mut assembly = Assembly::new(source, findings);
+    let overrides = assembly.overrides(arguments);
+    assembly.declare_names(&declared);
+    assembly.parameters(&declared, &overrides);
+    assembly.variables(&declared.variables);
+    assembly.profiles(&declared);
+    assembly.items(&declared);
+    assembly.tables(&declared, tables);
+    assembly.finish_items();
+    if assembly.without.table {
+        // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
+        assembly.grammar(&declared);
+        return (assembly.problem, assembly.findings);
+    }
+    assembly.apply(&overrides);
+    assembly.check_variables();
+    assembly.links(&declared.definitions);
+    assembly.objective(&declared);
+    assembly.constraints(&declared.constraints);
+    assembly.check_existence();
+    assembly.say_unused();
+    assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
+    assembly.problem.units = std::mem::take(&mut declared.units);
+    assembly.problem.settings = declared.settings.clone();
+    (assembly.problem, assembly.findings)
+}
+
+/// The file's stem; of a `problem.toml`, the name of its folder.
+fn title(source: &Source) -> String {
+    let path = Path::new(&source.name);
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = || path.parent()?.file_name().map(|name| name.to_string_lossy().into_owned());
+    if stem == "problem" { folder().unwrap_or(stem) } else { stem }
+}
+
+impl<'a> Assembly<'a> {
+    fn new(source: &'a Source, findings: Findings) -> Self {
+        Assembly {
+            source,
+            findings,
+            problem: Problem::default(),
+            names: Names::default(),
+            declared_at: HashMap::new(),
+            parameters: Vec::new(),
+            variables: Vec::new(),
+            definitions: Vec::new(),
+            section_places: Vec::new(),
+            rib_places: Vec::new(),
+            dimension_places: HashMap::new(),
+            section_data: DataColumns::default(),
+            rib_data: DataColumns::default(),
+            links: Vec::new(),
+            texts: Vec::new(),
+            text_numbers: HashMap::new(),
+            points: HashMap::new(),
+            used: Vec::new(),
+            without: Without::default(),
+        }
+    }
+
+    /// Mistakes of grammar, without looking up any name.
+    fn grammar(&mut self, declared: &Declaration) {
+        for (_, scalar) in &declared.definitions {
+            if let Scalar::Expression(written) = scalar {
+                self.parsed(written, parse);
+            }
+        }
+        if let Some((_, Some(written))) = &declared.objective {
+            self.parsed(written, parse);
+        }
+        for written in declared.constraints.iter().filter_map(|entry| entry.require.as_ref()) {
+            self.parsed(written, parse_requirement);
+        }
+    }
+
+    /// What names can refer to by now.
+    fn world(&self, stage: Stage) -> World<'_> {
+        World {
+            problem: &self.problem,
+            names: &self.names,
+            parameters: &self.parameters,
+            variables: &self.variables,
+            definitions: &self.definitions,
+            stage,
+        }
+    }
+
+    /// Enters the names of parameters, variables and definitions.
+    fn declare_names(&mut self, declared: &Declaration) {
+        let parameters = declared.parameters.iter().enumerate();
+        let variables = declared.variables.iter().enumerate();
+        let definitions = declared.definitions.iter().enumerate();
+        let all = parameters.map(|(at, (name, _))| (name, Entity::Parameter(at as u32)));
+        let all = all.chain(variables.map(|(at, entry)| (&entry.name, Entity::Variable(at as u32))));
+        let all = all.chain(definitions.map(|(at, (name, _))| (name, Entity::Definition(at as u32))));
+        for (name, entity) in all {
+            let first = self.names.find(&self.problem, &name.text);
+            if self.usable(name, entity.word()) && self.is_new(name, entity.word(), first) {
+                self.names.declare(&name.text, entity);
+                self.declared_at.insert(name.text.clone(), name.place);
+            }
+        }
+    }
+
+    /// A name must not be empty or a word of the language.
+    fn usable(&mut self, name: &Name, what: &str) -> bool {
+        let reserved = ["pi", "where", "and", "or", "not"].contains(&name.text.as_str());
+        if reserved {
+            let message = format!("`{}` is a word of the language and cannot name a {what}", name.text);
+            self.findings.mistake(name.place, message, "choose another name");
+        } else if name.text.trim().is_empty() {
+            self.findings.mistake(name.place, format!("a {what} without a name"), "give it a name");
+        }
+        !reserved && !name.text.trim().is_empty()
+    }
+
+    /// Whether the name is free; a mistake naming both places otherwise.
+    fn is_new(&mut self, name: &Name, what: &str, first: Option<Entity>) -> bool {
+        let Some(first) = first else { return true };
+        let place = self.entity_place(&name.text, first);
+        let message = format!("the name `{}` is given twice", name.text);
+        let help = format!("the {} is declared at {}; rename it or this {what}", first.word(), self.spoken(place));
+        self.findings.mistake(name.place, message, help);
+        false
+    }
+
+    fn entity_place(&self, name: &str, entity: Entity) -> Place {
+        let found = match entity {
+            Entity::Section(s) => self.section_places.get(s as usize),
+            Entity::Rib(r) => self.rib_places.get(r as usize),
+            _ => self.declared_at.get(name),
+        };
+        found.copied().unwrap_or(Place::Whole)
+    }
+
+    /// A place in words: `rib.toml:12`.
+    fn spoken(&self, place: Place) -> String {
+        match place {
+            Place::File { start, .. } => format!("{}:{}", self.source.name, self.source.line(start as usize)),
+            Place::Row { table, line, .. } => {
+                let name = self.findings.tables.get(table as usize).map_or("", |(_, name)| name);
+                format!("{name}:{line}")
+            }
+            Place::Argument { .. } => "--set".to_owned(),
+            Place::Whole => self.source.name.clone(),
+        }
+    }
+
+    /// The objective; the volume where there are ribs and nothing is said.
+    fn objective(&mut self, declared: &Declaration) {
+        let (sense, written) = match &declared.objective {
+            Some((sense, Some(written))) => (*sense, written.clone()),
+            Some((_, None)) => return,
+            None if self.problem.ribs.names.is_empty() => {
+                if declared.ribs.is_empty() && declared.rib_table.is_none() {
+                    let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised";
+                    self.findings.mistake(Place::Whole, "there is no objective", help);
+                }
+                return;
+            }
+            None => (Sense::Minimize, Written { text: "volume".into(), place: Place::Whole, inside: None }),
+        };
+        self.problem.sense = sense;
+        let formula = self.scalar(&written, None).unwrap_or_default();
+        self.cells_filled(&formula, None, "the objective");
+        self.problem.objective = formula;
+        self.problem.objective_text = written.text;
+    }
+}

@@ -1,0 +1,116 @@
+//! Walks the file's tables into a [`Declaration`].
+
+mod constraints;
+mod profiles;
+mod settings;
+mod shapes;
+
+use toml::de::DeTable;
+
+pub(super) use profiles::{DEFAULT_DEGREE, KINDS as PROFILE_KINDS};
+
+use super::declaration::{Declaration, Name, Numbers, Range, VariableEntry};
+use super::fields::{Field, Fields, Reader, Scalar};
+use super::source::Place;
+use crate::problem::Sense;
+
+/// The whole file.
+pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declaration {
+    let mut top = Fields::of(document, Place::Whole);
+    let title = top.take("title").and_then(|field| field.text(reader)).map(|title| title.text);
+    let mut declared = Declaration { title, ..Declaration::default() };
+    objective(&mut top, &mut declared, reader);
+    for field in named(&mut top, "units", reader) {
+        declared.units.extend(field.text(reader).map(|label| (field.key.to_owned(), label.text)));
+    }
+    for field in named(&mut top, "parameters", reader) {
+        // A name whose value is wrong is known all the same: its uses are no mistakes.
+        let value = numbers(&field, reader).unwrap_or(Numbers::One(Scalar::Number(f64::NAN, field.place)));
+        declared.parameters.push((name(&field), value));
+    }
+    for field in named(&mut top, "variables", reader) {
+        declared.variables.extend(variable(&field, reader));
+    }
+    for field in named(&mut top, "profiles", reader) {
+        let (profile, controls) = profiles::profile(&field, declared.variables.len(), reader);
+        declared.profiles.extend(profile);
+        declared.variables.push(controls);
+    }
+    for field in named(&mut top, "definitions", reader) {
+        declared.definitions.extend(field.scalar(reader).map(|value| (name(&field), value)));
+    }
+    for field in named(&mut top, "sections", reader) {
+        declared.sections.extend(shapes::section(&field, reader));
+    }
+    for fields in top.take("ribs").map(|field| field.tables(reader)).unwrap_or_default() {
+        declared.ribs.extend(shapes::rib(fields, reader));
+    }
+    for fields in top.take("constraints").map(|field| field.tables(reader)).unwrap_or_default() {
+        declared.constraints.push(constraints::constraint(fields, reader));
+    }
+    if let Some(fields) = top.take("solver").and_then(|field| field.table(reader)) {
+        settings::settings(fields, &mut declared.settings, reader);
+    }
+    if let Some(mut fields) = top.take("tables").and_then(|field| field.table(reader)) {
+        declared.section_table = fields.take("sections").and_then(|field| field.text(reader));
+        declared.rib_table = fields.take("ribs").and_then(|field| field.text(reader));
+        fields.finish(reader);
+    }
+    top.finish(reader);
+    declared
+}
+
+/// The name a field declares.
+fn name(field: &Field) -> Name {
+    Name { text: field.key.to_owned(), place: field.key_place }
+}
+
+/// The fields of a table whose keys are names.
+fn named<'a>(top: &mut Fields<'a>, key: &'static str, reader: &mut Reader) -> Vec<Field<'a>> {
+    top.take(key).and_then(|field| field.table(reader)).map(|mut fields| fields.rest()).unwrap_or_default()
+}
+
+fn objective(top: &mut Fields, declared: &mut Declaration, reader: &mut Reader) {
+    let (minimize, maximize) = (top.take("minimize"), top.take("maximize"));
+    if let (Some(_), Some(second)) = (&minimize, &maximize) {
+        let help = "keep one of `minimize` and `maximize`";
+        reader.findings.mistake(second.key_place, "two objectives", help);
+    }
+    let sense = if minimize.is_some() { Sense::Minimize } else { Sense::Maximize };
+    declared.objective = minimize.or(maximize).map(|field| (sense, field.text(reader)));
+}
+
+fn numbers(field: &Field, reader: &mut Reader) -> Option<Numbers> {
+    match field.items() {
+        Some(items) => {
+            let count = items.len();
+            let values: Vec<Scalar> = items.iter().filter_map(|item| item.scalar(reader)).collect();
+            (values.len() == count).then_some(Numbers::Many(values, field.place))
+        }
+        None => field.scalar(reader).map(Numbers::One),
+    }
+}
+
+fn variable(field: &Field, reader: &mut Reader) -> Option<VariableEntry> {
+    let Some(mut fields) = field.table(reader) else { return Some(open_variable(field)) };
+    let size = fields.take("size").and_then(|field| field.scalar(reader));
+    let range = range(&mut fields, numbers, reader);
+    fields.finish(reader);
+    Some(VariableEntry { name: name(field), size, range })
+}
+
+/// Stands in for a variable whose declaration is wrong, so that its uses are not mistakes as well.
+fn open_variable(field: &Field) -> VariableEntry {
+    VariableEntry { name: name(field), size: None, range: Range::default() }
+}
+
+/// `lower`, `upper` and `start` of a table.
+fn range<T>(fields: &mut Fields, value: impl Fn(&Field, &mut Reader) -> Option<T>, reader: &mut Reader) -> Range<T> {
+    let mut one = |key| {
+        reader.bounds = key != "start";
+        let read = fields.take(key).and_then(|field| value(&field, reader));
+        reader.bounds = false;
+        read
+    };
+    Range { lower: one("lower"), upper: one("upper"), start: one("start") }
+}

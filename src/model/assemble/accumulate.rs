@@ -1,0 +1,110 @@
+//! Adds pieces to the objective or a row, each shape compiled once.
+
+use std::collections::HashMap;
+
+use super::expression_graph::{Lowering, end_section};
+use super::kernel_groups::{Groups, Kernels};
+use super::template::{Target, Template};
+use super::walk::{Piece, Sink, Work};
+use crate::expression::tape::TapeError;
+use crate::model::assembled::Affine;
+use crate::model::elements::Label;
+use crate::problem::formula::End;
+use crate::problem::{Dimension, Problem};
+use crate::ribs::law::Law;
+use crate::sections::{self, Length};
+
+/// Templates by what they stand for and by shape.
+#[derive(Default)]
+pub(super) struct Templates(HashMap<(Work, Vec<u32>), Template>);
+
+/// The objective or one row while it is added up.
+pub(super) struct Summation<'a> {
+    pub problem: &'a Problem,
+    pub kernels: &'a mut Kernels,
+    pub templates: &'a mut Templates,
+    pub groups: &'a mut Groups,
+    pub affine: Affine,
+    /// The row; `None` in the objective.
+    pub row: Option<u32>,
+    /// Elements added so far.
+    pub elements: usize,
+}
+
+impl Summation<'_> {
+    fn label(&self, rib: Option<u32>) -> Label {
+        match (self.row, rib) {
+            (Some(row), _) => Label::Row(row),
+            (None, Some(rib)) => Label::RibVolume(rib),
+            (None, None) => Label::Objective,
+        }
+    }
+}
+
+impl Sink for Summation<'_> {
+    /// Closed forms where the ends' dimensions are variables of their own.
+    fn volume(&mut self, rib: u32, law: Law, weight: f64) -> bool {
+        let problem = self.problem;
+        let ends = [End::From, End::To].map(|end| end_section(problem, rib, end) as usize);
+        let form = problem.sections.form[ends[0]];
+        if ends[0] == ends[1] || form != problem.sections.form[ends[1]] {
+            return false;
+        }
+        let factors = sections::kind_of(form).part_factors(sections::form(form));
+        let inputs: Option<Vec<_>> = factors.iter().map(|part| part_inputs(problem, ends, part)).collect();
+        let Some(inputs) = inputs.filter(|inputs| !inputs.is_empty()) else { return false };
+        let weight = weight * problem.ribs.length[rib as usize];
+        for ([width, height], inputs) in factors.iter().zip(inputs) {
+            let kernel = self.kernels.part(law, height.minus.is_some());
+            let factor = height.minus.map(|(factor, _)| factor);
+            let group = self.groups.of(kernel, self.kernels);
+            let label = match self.row {
+                Some(row) => Label::Row(row),
+                None => Label::RibVolume(rib),
+            };
+            group.push(&inputs, factor.as_slice(), weight * width.scale * height.scale, label, self.row);
+            self.elements += 1;
+        }
+        true
+    }
+
+    fn piece(&mut self, piece: &Piece) -> Result<(), TapeError> {
+        let label = self.label(piece.rib);
+        let mut compile = |lowering: &mut Lowering| {
+            let root = piece.lower(lowering);
+            Template::compile(&mut lowering.graph, root, self.kernels)
+        };
+        let mut target = Target { affine: &mut self.affine, groups: self.groups, row: self.row, label };
+        let Some(work) = piece.work else {
+            let mut lowering = Lowering::new(self.problem);
+            let template = compile(&mut lowering)?;
+            self.elements += template.elements();
+            template.add(&lowering.variables, &lowering.numbers, piece.weight, self.kernels, &mut target);
+            return Ok(());
+        };
+        let key = (work, piece.gathered.shape.clone());
+        let template = match self.templates.0.entry(key) {
+            std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
+            std::collections::hash_map::Entry::Vacant(place) => place.insert(compile(&mut Lowering::new(self.problem))?),
+        };
+        self.elements += template.elements();
+        template.add(&piece.gathered.variables, &piece.gathered.numbers, piece.weight, self.kernels, &mut target);
+        Ok(())
+    }
+}
+
+/// The variables of a part at both ends, if all its dimensions are variables and no two the same.
+fn part_inputs(problem: &Problem, ends: [usize; 2], part: &[Length; 2]) -> Option<Vec<u32>> {
+    let [width, height] = part;
+    let positions = [Some(width.plus), Some(height.plus), height.minus.map(|(_, at)| at)];
+    let mut inputs = Vec::with_capacity(6);
+    for end in ends {
+        for at in positions.into_iter().flatten() {
+            match problem.dimensions(end)[at] {
+                Dimension::Variable(variable) if !inputs.contains(&variable) => inputs.push(variable),
+                _ => return None,
+            }
+        }
+    }
+    Some(inputs)
+}

@@ -1,0 +1,71 @@
+//! What is true of formulas and worth asking once: do they reach over items, do they hold variables?
+
+use crate::problem::{Dimension, Formula, Problem};
+
+/// Two answers per definition and one per section, computed once.
+pub(super) struct Dependence {
+    definition_reaches: Vec<bool>,
+    definition_constant: Vec<bool>,
+    section_constant: Vec<bool>,
+}
+
+impl Dependence {
+    pub fn of(problem: &Problem) -> Dependence {
+        let mut facts = Dependence {
+            definition_reaches: vec![false; problem.definitions.len()],
+            definition_constant: vec![true; problem.definitions.len()],
+            section_constant: Vec::new(),
+        };
+        // Definitions stand in any order and are free of cycles: at most as many rounds as definitions settle them.
+        while facts.improve(problem) {}
+        facts.section_constant = (0..problem.sections.names.len())
+            .map(|section| {
+                problem.dimensions(section).iter().all(|dimension| match dimension {
+                    Dimension::Constant(_) => true,
+                    Dimension::Variable(_) => false,
+                    Dimension::Formula(formula) => facts.is_constant(&problem.dimension_formulas[*formula as usize]),
+                })
+            })
+            .collect();
+        facts
+    }
+
+    fn improve(&mut self, problem: &Problem) -> bool {
+        let mut changed = false;
+        for (index, (_, formula)) in problem.definitions.iter().enumerate() {
+            let (reaches, constant) = (self.reaches_items(formula), self.is_constant(formula));
+            changed |= reaches != self.definition_reaches[index] || constant != self.definition_constant[index];
+            self.definition_reaches[index] = reaches;
+            self.definition_constant[index] = constant;
+        }
+        changed
+    }
+
+    /// True where a sum over items or a rib's volume stands inside, so that it is worth taking apart.
+    pub fn reaches_items(&self, formula: &Formula) -> bool {
+        match formula {
+            Formula::Over { .. } | Formula::Volume(_) | Formula::RibVolume(_) | Formula::OwnVolume => true,
+            Formula::Definition(definition) => self.definition_reaches[*definition as usize],
+            Formula::Unary(_, inner) => self.reaches_items(inner),
+            Formula::Binary(_, left, right) => self.reaches_items(left) || self.reaches_items(right),
+            Formula::Fold(_, list) => list.iter().any(|one| self.reaches_items(one)),
+            _ => false,
+        }
+    }
+
+    /// True where no variable can stand inside.
+    pub fn is_constant(&self, formula: &Formula) -> bool {
+        match formula {
+            Formula::Constant(_) | Formula::OwnLength | Formula::OwnData(_) | Formula::EndData(..) => true,
+            Formula::Definition(definition) => self.definition_constant[*definition as usize],
+            Formula::SectionProperty(section, _) => {
+                self.section_constant.get(*section as usize).is_some_and(|constant| *constant)
+            }
+            Formula::Unary(_, inner) => self.is_constant(inner),
+            Formula::Binary(_, left, right) => self.is_constant(left) && self.is_constant(right),
+            Formula::Fold(_, list) => list.iter().all(|one| self.is_constant(one)),
+            Formula::Over { body, .. } => self.is_constant(body),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! H beams given by overall and web height, solved in the flange thickness: t = h − hw takes the place of h.
+//!
+//! h ≤ hw is outside the model's domain, and no solver respects a domain; it does respect the bound t > 0.
+
+use std::sync::Arc;
+
+use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
+use crate::problem::{Dimension, Problem};
+use crate::sections;
+
+/// Flanges thinner than this share of the overall height's reach are no longer told from zero.
+const THINNEST: f64 = 1e-9;
+
+/// A model in which some variables are replaced by their difference to another one.
+pub struct FlangeSubstitution {
+    model: Arc<dyn Model + Send>,
+    /// For each variable, the one whose value is to be added: x_j = z_j + z_partner.
+    partner: Vec<Option<u32>>,
+    /// The replaced variables, in the order of the rows that keep their bounds.
+    replaced: Vec<usize>,
+    meta: Meta,
+    /// The model's Jacobian position k goes to these positions (the second for the partner's column).
+    jacobian_slots: Vec<[u32; 2]>,
+    /// The model's Hessian position k adds factor × value to these positions.
+    hessian_slots: Vec<Vec<(u32, f64)>>,
+}
+
+const NOWHERE: u32 = u32::MAX;
+
+impl FlangeSubstitution {
+    /// The pairs (h, hw) of the problem whose bounds let the flange vanish.
+    pub fn pairs(problem: &Problem) -> Vec<(usize, usize)> {
+        let mut taken = vec![false; problem.variables.lower.len()];
+        let mut pairs = Vec::new();
+        for section in 0..problem.sections.names.len() {
+            let form = sections::form(problem.sections.form[section]);
+            let dimensions = problem.dimensions(section);
+            let parts = sections::kind_of(problem.sections.form[section]).part_factors(form);
+            for [_, height] in parts {
+                let Some((factor, minus)) = height.minus.filter(|(factor, _)| *factor == 1.0) else { continue };
+                let (Dimension::Variable(h), Dimension::Variable(hw)) = (dimensions[height.plus], dimensions[minus]) else {
+                    continue;
+                };
+                let (h, hw) = (h as usize, hw as usize);
+                let may_vanish = problem.variables.lower[h] - factor * problem.variables.upper[hw] <= 0.0;
+                let free = problem.variables.lower[h] < problem.variables.upper[h];
+                if may_vanish && free && h != hw && !taken[h] && !taken[hw] {
+                    (taken[h], taken[hw]) = (true, true);
+                    pairs.push((h, hw));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Replaces h by h − hw for each pair (h, hw); no variable may stand in two pairs.
+    pub fn new(model: Arc<dyn Model + Send>, pairs: &[(usize, usize)]) -> Self {
+        let user = model.meta();
+        let mut partner = vec![None; user.variables()];
+        for &(h, hw) in pairs {
+            partner[h] = Some(hw as u32);
+        }
+        let replaced: Vec<usize> = pairs.iter().map(|&(h, _)| h).collect();
+        let mut meta = Meta {
+            row_lower: user.row_lower.clone(),
+            row_upper: user.row_upper.clone(),
+            row_is_linear: user.row_is_linear.clone(),
+            lower: user.lower.clone(),
+            upper: user.upper.clone(),
+            start: user.start.clone(),
+            typical: user.typical.clone(),
+            objective_is_linear: user.objective_is_linear,
+            ..Meta::default()
+        };
+        for &(h, hw) in pairs {
+            bound_difference(&mut meta, user, h, hw);
+        }
+        let jacobian_slots = connect_jacobian(user, &partner, &replaced, &mut meta);
+        let hessian_slots = connect_hessian(user, &partner, &mut meta);
+        FlangeSubstitution { model, partner, replaced, meta, jacobian_slots, hessian_slots }
+    }
+
+    fn add_to_partners(&self, values: &mut [f64]) {
+        for (j, partner) in self.partner.iter().enumerate() {
+            if let Some(partner) = partner {
+                values[*partner as usize] += values[j];
+            }
+        }
+    }
+}
+
+/// Bounds of t, and h's own bounds as a row hl ≤ t + hw ≤ hu.
+fn bound_difference(meta: &mut Meta, user: &Meta, h: usize, hw: usize) {
+    let reach = [user.upper[h], user.start[h]].into_iter().find(|value| value.is_finite()).map_or(1.0, f64::abs);
+    meta.lower[h] = THINNEST * reach.max(f64::MIN_POSITIVE);
+    meta.upper[h] = (user.upper[h] - user.lower[hw]).max(meta.lower[h]);
+    meta.start[h] = (user.start[h] - user.start[hw]).clamp(meta.lower[h], meta.upper[h]);
+    meta.row_lower.push(user.lower[h]);
+    meta.row_upper.push(user.upper[h]);
+    meta.row_is_linear.push(true);
+}
+
+fn connect_jacobian(user: &Meta, partner: &[Option<u32>], replaced: &[usize], meta: &mut Meta) -> Vec<[u32; 2]> {
+    let mut positions: Vec<(u32, u32)> = Vec::with_capacity(user.jacobian.len());
+    for (row, column) in user.jacobian.iter() {
+        positions.push((row as u32, column as u32));
+        positions.extend(partner[column].map(|partner| (row as u32, partner)));
+    }
+    for (at, &h) in replaced.iter().enumerate() {
+        let row = (user.rows() + at) as u32;
+        positions.push((row, h as u32));
+        positions.extend(partner[h].map(|partner| (row, partner)));
+    }
+    meta.jacobian = Pattern::from_positions(user.rows() + replaced.len(), &mut positions);
+    let slot = |row, column| meta.jacobian.position(row, column).map_or(NOWHERE, |at| at as u32);
+    let slots =
+        |(row, column): (usize, usize)| [slot(row, column as u32), partner[column].map_or(NOWHERE, |partner| slot(row, partner))];
+    user.jacobian.iter().map(slots).collect()
+}
+
+/// TᵀHT for x = Tz: the entry (a, b) reaches (a or its partner) × (b or its partner).
+fn connect_hessian(user: &Meta, partner: &[Option<u32>], meta: &mut Meta) -> Vec<Vec<(u32, f64)>> {
+    let reached = |j: usize| std::iter::once(j as u32).chain(partner[j]);
+    let spread = |(a, b): (usize, usize)| {
+        let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+        for i in reached(a) {
+            for j in reached(b) {
+                // An off-diagonal entry stands for two; where both land on the diagonal, they add up there.
+                let twice = a != b && i == j;
+                let mirrored = a == b && i < j;
+                if !mirrored {
+                    entries.push((i.max(j), i.min(j), if twice { 2.0 } else { 1.0 }));
+                }
+            }
+        }
+        entries
+    };
+    let mut positions: Vec<(u32, u32)> =
+        user.hessian.iter().flat_map(|entry| spread(entry).into_iter().map(|(i, j, _)| (i, j))).collect();
+    meta.hessian = Pattern::from_positions(user.variables(), &mut positions);
+    let slot = |i: u32, j| meta.hessian.position(i as usize, j).map(|at| at as u32);
+    user.hessian
+        .iter()
+        .map(|entry| spread(entry).into_iter().filter_map(|(i, j, factor)| Some((slot(i, j)?, factor))).collect())
+        .collect()
+}
+
+impl Substitution for FlangeSubstitution {
+    fn model(&self) -> &dyn Model {
+        self
+    }
+
+    fn outward(&self, z: &[f64]) -> Vec<f64> {
+        let mut x = z.to_vec();
+        for (j, partner) in self.partner.iter().enumerate() {
+            if let Some(partner) = partner {
+                let user = self.model.meta();
+                x[j] = (z[j] + z[*partner as usize]).max(user.lower[j]).min(user.upper[j]);
+            }
+        }
+        x
+    }
+
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
+        let mut z = x.to_vec();
+        for (j, partner) in self.partner.iter().enumerate() {
+            if let Some(partner) = partner {
+                z[j] = (x[j] - x[*partner as usize]).max(self.meta.lower[j]).min(self.meta.upper[j]);
+            }
+        }
+        z
+    }
+
+    fn vanishing(&self, x: &[f64]) -> Vec<(usize, usize)> {
+        let pair = |&h: &usize| Some((h, self.partner[h]? as usize));
+        let gone = |&(h, hw): &(usize, usize)| x[h] - x[hw] <= 2.0 * self.meta.lower[h];
+        self.replaced.iter().filter_map(pair).filter(gone).collect()
+    }
+}
+
+impl Model for FlangeSubstitution {
+    fn meta(&self) -> &Meta {
+        &self.meta
+    }
+
+    fn objective(&self, z: &[f64]) -> Result<f64, EvaluationError> {
+        self.model.objective(&self.raw(z))
+    }
+
+    fn gradient(&self, z: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let value = self.model.gradient(&self.raw(z), gradient)?;
+        self.add_to_partners(gradient);
+        Ok(value)
+    }
+
+    fn constraints(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let x = self.raw(z);
+        let (rows, heights) = values.split_at_mut(self.model.meta().rows());
+        for (height, &h) in heights.iter_mut().zip(&self.replaced) {
+            *height = x[h];
+        }
+        self.model.constraints(&x, rows)
+    }
+
+    fn jacobian(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut user = vec![0.0; self.jacobian_slots.len()];
+        self.model.jacobian(&self.raw(z), &mut user)?;
+        values.fill(0.0);
+        for (slots, value) in self.jacobian_slots.iter().zip(user) {
+            for &slot in slots.iter().filter(|&&slot| slot != NOWHERE) {
+                values[slot as usize] += value;
+            }
+        }
+        let first = self.meta.jacobian.offsets[self.model.meta().rows()];
+        values[first..].fill(1.0);
+        Ok(())
+    }
+
+    fn hessian(&self, z: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut user = vec![0.0; self.hessian_slots.len()];
+        self.model.hessian(&self.raw(z), weight, &y[..self.model.meta().rows()], &mut user)?;
+        values.fill(0.0);
+        for (slots, value) in self.hessian_slots.iter().zip(user) {
+            for &(slot, factor) in slots {
+                values[slot as usize] += factor * value;
+            }
+        }
+        Ok(())
+    }
+
+    fn variable_name(&self, j: usize) -> String {
+        match self.partner[j] {
+            Some(partner) => format!("{} - {}", self.model.variable_name(j), self.model.variable_name(partner as usize)),
+            None => self.model.variable_name(j),
+        }
+    }
+
+    fn row_name(&self, i: usize) -> String {
+        match i.checked_sub(self.model.meta().rows()) {
+            Some(at) => format!("bounds of {}", self.model.variable_name(self.replaced[at])),
+            None => self.model.row_name(i),
+        }
+    }
+}
+
+impl FlangeSubstitution {
+    /// x(z) as it is, not moved into bounds: derivatives must be those of a linear map.
+    fn raw(&self, z: &[f64]) -> Vec<f64> {
+        let mut x = z.to_vec();
+        for (j, partner) in self.partner.iter().enumerate() {
+            if let Some(partner) = partner {
+                x[j] += z[*partner as usize];
+            }
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::model::derivative_check::derivative_check;
+    use crate::model::sample::Sample;
+
+    /// x = (h, hw, b): a flange area with a root, and rows that hold h, hw and both.
+    fn model() -> Sample {
+        Sample::new(&[0.6, 0.4, 0.2], |x| x[2] * (x[0] - x[1]) + ((x[0] - x[1]) * x[2]).sqrt() * x[1])
+            .bounds(&[0.1, 0.1, 0.01], &[1.0, 0.9, 1.0])
+            .row(0.1, 2.0, |x| x[2] * x[0].powi(3) - x[1].powi(3))
+            .row(0.0, 1.0, |x| x[0] * x[0] * x[1])
+    }
+
+    #[test]
+    fn derivatives_stay_exact() {
+        let model = model();
+        let differences = FlangeSubstitution::new(Arc::new(model), &[(0, 1)]);
+        let check = derivative_check(&differences, &[0.23, 0.45, 0.3]).unwrap();
+        assert_eq!(check.disagreements, 0, "{:?}", check.worst);
+        assert!(check.compared > 10);
+    }
+
+    #[test]
+    fn points_go_there_and_back_and_bounds_become_a_row() {
+        let model = model();
+        let differences = FlangeSubstitution::new(Arc::new(model), &[(0, 1)]);
+        let x = [0.7, 0.5, 0.3];
+        let z = differences.inward(&x);
+        assert!(z.iter().zip([0.2, 0.5, 0.3]).all(|(z, expected): (&f64, f64)| (z - expected).abs() < 1e-15));
+        assert!(differences.outward(&z).iter().zip(x).all(|(there, x)| (there - x).abs() < 1e-15));
+        assert_eq!((differences.meta().rows(), differences.meta().row_lower[2], differences.meta().row_upper[2]), (3, 0.1, 1.0));
+        assert!(differences.meta().lower[0] > 0.0);
+    }
+}

@@ -1,0 +1,279 @@
+//! A model in the logarithms of its variables, y = ln x: posynomials become convex, monomial rows affine.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
+
+/// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
+pub struct Logarithmic {
+    model: Arc<dyn Model + Send>,
+    meta: Meta,
+    /// Rows replaced by their logarithm.
+    monomial: Vec<bool>,
+    /// Exponents along the Jacobian's pattern; zero outside monomial rows.
+    exponents: Vec<f64>,
+    /// ln k of each monomial row.
+    constants: Vec<f64>,
+    /// Where the model's Hessian positions stand in this one's pattern, and where the diagonal does.
+    slots: Vec<u32>,
+    diagonal: Vec<u32>,
+    /// First derivatives where they were asked for last: second ones are nearly always wanted at the same point.
+    latest: Mutex<Latest>,
+}
+
+/// First derivatives in x, and the points y where they were taken.
+#[derive(Default)]
+struct Latest {
+    gradient_at: Vec<f64>,
+    gradient: Vec<f64>,
+    jacobian_at: Vec<f64>,
+    jacobian: Vec<f64>,
+}
+
+impl Logarithmic {
+    /// The model in log variables. `monomial` says which rows are monomials with a positive factor.
+    ///
+    /// `None` unless every variable is positive between its bounds and the start, moved off zero, has values.
+    pub fn new(model: Arc<dyn Model + Send>, monomial: Vec<bool>) -> Option<Self> {
+        let user = model.meta();
+        if user.lower.iter().any(|&lower| lower < 0.0) || user.upper.iter().any(|&upper| upper <= 0.0) {
+            return None;
+        }
+        let start: Vec<f64> = (0..user.variables()).map(|j| positive(user.start[j], user.upper[j])).collect();
+        let (exponents, constants) = monomials(model.as_ref(), &start, &monomial)?;
+        let (hessian, slots, diagonal) = with_diagonal(&user.hessian);
+        let limit = |limits: &[f64]| -> Vec<f64> {
+            limits.iter().zip(&monomial).map(|(&limit, &monomial)| if monomial { ln(limit) } else { limit }).collect()
+        };
+        let meta = Meta {
+            lower: user.lower.iter().copied().map(ln).collect(),
+            upper: user.upper.iter().copied().map(ln).collect(),
+            start: start.iter().copied().map(f64::ln).collect(),
+            // A logarithm has no unit: 1 is a step by a factor e.
+            typical: Vec::new(),
+            row_lower: limit(&user.row_lower),
+            row_upper: limit(&user.row_upper),
+            row_is_linear: monomial.clone(),
+            objective_is_linear: false,
+            jacobian: user.jacobian.clone(),
+            hessian,
+        };
+        let latest = Mutex::default();
+        Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal, latest })
+    }
+
+    fn x(&self, y: &[f64]) -> Vec<f64> {
+        y.iter().map(|y| y.exp()).collect()
+    }
+
+    fn latest(&self) -> std::sync::MutexGuard<'_, Latest> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// weight·∇f + Jᵀ·multipliers in x.
+    fn lagrangian_gradient(&self, y: &[f64], x: &[f64], weight: f64, multipliers: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let latest = self.latest();
+        let mut gradient = vec![0.0; x.len()];
+        if weight != 0.0 {
+            if latest.gradient_at == y {
+                gradient.copy_from_slice(&latest.gradient);
+            } else {
+                self.model.gradient(x, &mut gradient)?;
+            }
+            gradient.iter_mut().for_each(|g| *g *= weight);
+        }
+        if latest.jacobian_at == y {
+            self.meta.jacobian.add_transposed(&latest.jacobian, multipliers, &mut gradient);
+        } else {
+            let mut jacobian = vec![0.0; self.meta.jacobian.len()];
+            self.model.jacobian(x, &mut jacobian)?;
+            self.meta.jacobian.add_transposed(&jacobian, multipliers, &mut gradient);
+        }
+        Ok(gradient)
+    }
+}
+
+/// The logarithm of a limit; what is not positive does not limit a positive quantity from below.
+fn ln(limit: f64) -> f64 {
+    if limit > 0.0 { limit.ln() } else { f64::NEG_INFINITY }
+}
+
+/// A start off zero.
+fn positive(start: f64, upper: f64) -> f64 {
+    if start > 0.0 { start } else { upper.min(1.0) * 1e-3 }
+}
+
+/// Exponents and ln k of the monomial rows: x_j·∂c/∂x_j = a_j·c wherever it is taken.
+fn monomials(model: &dyn Model, x: &[f64], monomial: &[bool]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let pattern = &model.meta().jacobian;
+    let (mut values, mut jacobian) = (vec![0.0; monomial.len()], vec![0.0; pattern.len()]);
+    if monomial.contains(&true) {
+        model.constraints(x, &mut values).ok()?;
+        model.jacobian(x, &mut jacobian).ok()?;
+    }
+    let (mut exponents, mut constants) = (vec![0.0; pattern.len()], vec![0.0; monomial.len()]);
+    for row in (0..monomial.len()).filter(|&row| monomial[row]) {
+        if values[row] <= 0.0 {
+            return None;
+        }
+        constants[row] = values[row].ln();
+        for at in pattern.range(row) {
+            let j = pattern.columns[at] as usize;
+            exponents[at] = rounded(jacobian[at] * x[j] / values[row]);
+            constants[row] -= exponents[at] * x[j].ln();
+        }
+    }
+    Some((exponents, constants))
+}
+
+/// Exponents are nearly always whole or simple fractions; rounding of the division is taken off again.
+fn rounded(exponent: f64) -> f64 {
+    let twelfths = (exponent * 12.0).round() / 12.0;
+    if (exponent - twelfths).abs() <= 1e-13 * exponent.abs() { twelfths } else { exponent }
+}
+
+fn with_diagonal(pattern: &Pattern) -> (Pattern, Vec<u32>, Vec<u32>) {
+    let n = pattern.rows();
+    let mut positions: Vec<(u32, u32)> = pattern.iter().map(|(i, j)| (i as u32, j as u32)).collect();
+    positions.extend((0..n as u32).map(|j| (j, j)));
+    let full = Pattern::from_positions(n, &mut positions);
+    // Every position asked for was put in above.
+    let slot = |i: usize, j: usize| full.position(i, j as u32).unwrap_or(0) as u32;
+    let slots = pattern.iter().map(|(i, j)| slot(i, j)).collect();
+    let diagonal = (0..n).map(|j| slot(j, j)).collect();
+    (full, slots, diagonal)
+}
+
+impl Substitution for Logarithmic {
+    fn model(&self) -> &dyn Model {
+        self
+    }
+
+    fn outward(&self, y: &[f64]) -> Vec<f64> {
+        let user = self.model.meta();
+        let inside = |(j, x): (usize, f64)| match y[j] {
+            // A bound reached in logarithms is that very bound.
+            y if y <= self.meta.lower[j] => user.lower[j],
+            y if y >= self.meta.upper[j] => user.upper[j],
+            _ => x.max(user.lower[j]).min(user.upper[j]),
+        };
+        self.x(y).into_iter().enumerate().map(inside).collect()
+    }
+
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
+        let upper = &self.model.meta().upper;
+        x.iter().zip(upper).map(|(&x, &upper)| positive(x, upper).ln()).collect()
+    }
+}
+
+impl Model for Logarithmic {
+    fn meta(&self) -> &Meta {
+        &self.meta
+    }
+
+    fn objective(&self, y: &[f64]) -> Result<f64, EvaluationError> {
+        self.model.objective(&self.x(y))
+    }
+
+    fn gradient(&self, y: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let x = self.x(y);
+        let value = self.model.gradient(&x, gradient)?;
+        let mut latest = self.latest();
+        latest.gradient_at.clear();
+        latest.gradient_at.extend_from_slice(y);
+        latest.gradient.clear();
+        latest.gradient.extend_from_slice(gradient);
+        gradient.iter_mut().zip(&x).for_each(|(g, x)| *g *= x);
+        Ok(value)
+    }
+
+    fn constraints(&self, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.model.constraints(&self.x(y), values)?;
+        let pattern = &self.meta.jacobian;
+        for (row, value) in values.iter_mut().enumerate().filter(|(row, _)| self.monomial[*row]) {
+            let sum: f64 = pattern.range(row).map(|at| self.exponents[at] * y[pattern.columns[at] as usize]).sum();
+            *value = self.constants[row] + sum;
+        }
+        Ok(())
+    }
+
+    fn jacobian(&self, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let x = self.x(y);
+        self.model.jacobian(&x, values)?;
+        let mut latest = self.latest();
+        latest.jacobian_at.clear();
+        latest.jacobian_at.extend_from_slice(y);
+        latest.jacobian.clear();
+        latest.jacobian.extend_from_slice(values);
+        let pattern = &self.meta.jacobian;
+        for (row, &monomial) in self.monomial.iter().enumerate() {
+            for at in pattern.range(row) {
+                values[at] = if monomial { self.exponents[at] } else { values[at] * x[pattern.columns[at] as usize] };
+            }
+        }
+        Ok(())
+    }
+
+    fn hessian(&self, y: &[f64], weight: f64, multipliers: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let x = self.x(y);
+        let pattern = &self.model.meta().hessian;
+        let multipliers: Vec<f64> =
+            multipliers.iter().zip(&self.monomial).map(|(&y, &monomial)| if monomial { 0.0 } else { y }).collect();
+        let mut inner = vec![0.0; pattern.len()];
+        self.model.hessian(&x, weight, &multipliers, &mut inner)?;
+        values.fill(0.0);
+        for (((i, j), &slot), value) in pattern.iter().zip(&self.slots).zip(inner) {
+            values[slot as usize] = value * x[i] * x[j];
+        }
+        let gradient = self.lagrangian_gradient(y, &x, weight, &multipliers)?;
+        for (j, &slot) in self.diagonal.iter().enumerate() {
+            values[slot as usize] += x[j] * gradient[j];
+        }
+        Ok(())
+    }
+
+    fn variable_name(&self, j: usize) -> String {
+        format!("ln {}", self.model.variable_name(j))
+    }
+
+    fn row_name(&self, i: usize) -> String {
+        self.model.row_name(i)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::model::derivative_check::derivative_check;
+    use crate::model::sample::Sample;
+
+    /// A posynomial objective, a monomial row and a posynomial row.
+    fn model(least: f64) -> Sample {
+        Sample::new(&[0.6, 0.4, 0.2], |x| x[0] * x[1] * 2.0 + x[2] / x[0] + (x[0] * x[1] * x[2]).sqrt())
+            .bounds(&[least, 0.1, 0.0], &[1.0, 0.9, 1.0])
+            .row(1e-3, f64::INFINITY, |x| x[0] * x[1].powi(3) / 12.0)
+            .row(0.0, 1.0, |x| x[0] / x[1] + x[2] * x[2] * 0.5)
+    }
+
+    #[test]
+    fn derivatives_stay_exact_and_monomial_rows_become_affine() {
+        let log = Logarithmic::new(Arc::new(model(0.1)), vec![true, false]).unwrap();
+        let check = derivative_check(&log, &[-0.7, -1.1, -0.4]).unwrap();
+        assert_eq!(check.disagreements, 0, "{:?}", check.worst);
+        let mut jacobian = [0.0; 6];
+        log.jacobian(&[-0.7, -1.1, -0.4], &mut jacobian).unwrap();
+        assert_eq!(jacobian[..3], [1.0, 3.0, 0.0]);
+        let mut values = [0.0; 2];
+        log.constraints(&[0.0, 0.0, 0.0], &mut values).unwrap();
+        assert!((values[0] - (1.0f64 / 12.0).ln()).abs() < 1e-14);
+        assert_eq!(log.meta().row_lower[0], 1e-3f64.ln());
+        assert_eq!(log.outward(&log.meta().lower), [0.1, 0.1, 0.0]);
+    }
+
+    #[test]
+    fn variables_that_may_be_negative_have_no_logarithm() {
+        assert!(Logarithmic::new(Arc::new(model(-0.1)), vec![true, false]).is_none());
+    }
+}

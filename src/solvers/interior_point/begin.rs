@@ -1,0 +1,90 @@
+//! How a run begins: where, with which multipliers, how far from the bounds.
+
+use super::engine::{Best, Direction, Engine, FIRST_BARRIER, WARM_BARRIER};
+use super::filter::Filter;
+use super::form::{Form, Source};
+use super::iterate::Errors;
+use super::kkt::Kkt;
+use super::polish;
+use super::start;
+use crate::model::EvaluationError;
+
+/// How to begin.
+#[derive(Clone, Copy)]
+pub(super) struct InitialPoint<'s> {
+    /// The model's x.
+    pub x: &'s [f64],
+    /// What the variables are scaled by: their sizes here.
+    pub magnitudes: &'s [f64],
+    /// The model's row multipliers of an earlier answer.
+    pub multipliers: Option<&'s [f64]>,
+    /// By how much the limits of rows are eased while iterating.
+    pub ease: f64,
+    /// First barrier parameter, if not the usual one.
+    pub mu: Option<f64>,
+    /// Push inside the bounds, if not the usual one.
+    pub push: Option<f64>,
+}
+
+impl<'s> InitialPoint<'s> {
+    /// A cold start.
+    pub fn at(x: &'s [f64]) -> Self {
+        InitialPoint { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
+    }
+}
+
+impl<'a> Engine<'a> {
+    /// At the start, ready to iterate.
+    pub fn new(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
+        let warm = beginning.multipliers.is_some();
+        let mut form = Form::new(model, beginning.x, beginning.magnitudes);
+        form.ease = beginning.ease;
+        let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
+        let mu = beginning.mu.unwrap_or(if warm { WARM_BARRIER } else { FIRST_BARRIER });
+        let slack_push = if form.is_large() && !warm { start::LARGE_PUSH } else { push };
+        let mut iterate = start::place(&mut form, beginning.x, push, slack_push)?;
+        let mut kkt =
+            Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;
+        match beginning.multipliers {
+            Some(given) => start::warm_multipliers(&form, &mut iterate, given, mu),
+            // With slacks that begin well inside, zero is as good a guess as least squares, and free.
+            None if form.is_large() => start::unit_bound_multipliers(&form, &mut iterate),
+            None => {
+                start::unit_bound_multipliers(&form, &mut iterate);
+                start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
+            }
+        }
+        let (size, m) = (form.size(), form.rows.len());
+        let violation = iterate.violation().max(1.0);
+        let mut engine = Engine {
+            kkt,
+            filter: Filter::default(),
+            mu,
+            trial: iterate.clone(),
+            best: Best { error: f64::INFINITY, iterate: iterate.clone(), iteration: 0 },
+            iterate,
+            direction: Direction { w: vec![0.0; size], y: vec![0.0; m], z_lower: vec![0.0; size], z_upper: vec![0.0; size] },
+            barrier_gradient: vec![0.0; size],
+            right: vec![0.0; size],
+            hessian: vec![0.0; form.hessian.len()],
+            sigma: vec![0.0; size],
+            smallest_violation: 1e-4 * violation,
+            largest_violation: 1e4 * violation,
+            restoration: None,
+            restorations: 0,
+            step_norm: 0.0,
+            errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
+            unguarded: form.is_large(),
+            escapes: 0,
+            watchdog: None,
+            shortened_steps: 0,
+            tiny_steps: 0,
+            iterations: 0,
+            polish_at: if form.is_large() { polish::FIRST_TRIAL } else { 0.0 },
+            form,
+        };
+        engine.filter.reset(engine.largest_violation);
+        engine.assess();
+        Ok(engine)
+    }
+}

@@ -1,0 +1,141 @@
+//! The first iterate: inside the bounds, inside the domain, with least-squares multipliers.
+//!
+//! Wächter & Biegler (2006), §3.6, plus a search for the domain where the start is outside of it.
+
+use super::form::Form;
+use super::iterate::Iterate;
+use super::kkt::{Blocks, Kkt, Sides};
+use super::scaling;
+use super::vectors::norm_max;
+use crate::model::{EvaluationError, Meta};
+use crate::solvers::barrier::pushed;
+
+/// Larger least-squares multipliers are no guess worth having.
+const LARGEST_GUESS: f64 = 1e3;
+/// Shares of the way from the start towards the middle of the bounds, tried in this order.
+const TOWARDS_MIDDLE: [f64; 7] = [1e-6, 1e-3, 1e-2, 0.1, 0.25, 0.5, 1.0];
+
+/// How far inside its bounds the start is pushed: κ₁ (absolute) and κ₂ (share of the distance between two bounds).
+pub(super) const COLD_PUSH: f64 = 1e-2;
+pub(super) const WARM_PUSH: f64 = 1e-8;
+/// κ₁ and κ₂ of the slacks of large problems: among thousands of rows some slack always stops a step short, unless all of them
+/// begin well inside.
+pub(super) const LARGE_PUSH: f64 = 1.0;
+
+/// Puts the variables at `start` (the model's x) and evaluates; slacks follow, scales are chosen.
+pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
+    let mut iterate = Iterate::new(form);
+    for (at, &j) in form.free.iter().enumerate() {
+        iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
+    }
+    evaluate_in_domain(form, &mut iterate)?;
+    let (objective_scale, row_scale) = scaling::gradient_scales(form, iterate.objective, &iterate.gradient, &iterate.jacobian);
+    form.rescale(objective_scale, row_scale);
+    iterate.evaluate(form)?;
+    place_slacks(form, &mut iterate, slack_push);
+    Ok(iterate)
+}
+
+/// Slacks at the rows' values, pushed inside their limits.
+pub(super) fn place_slacks(form: &Form<'_>, iterate: &mut Iterate, push: f64) {
+    for (i, slack) in form.slack.iter().enumerate() {
+        if let Some(slack) = *slack {
+            iterate.w[slack] = pushed(iterate.rows[i], form.lower[slack], form.upper[slack], push);
+        }
+    }
+    form.residual(&iterate.w, &iterate.rows, &mut iterate.residual);
+}
+
+/// Evaluates, moving towards the middle of the bounds while a term is outside its domain. The first error is the one
+/// that is told.
+fn evaluate_in_domain(form: &mut Form<'_>, iterate: &mut Iterate) -> Result<(), EvaluationError> {
+    let first = match iterate.evaluate(form) {
+        Err(error @ EvaluationError::Invalid { .. }) => error,
+        other => return other,
+    };
+    let start = iterate.w.clone();
+    for share in TOWARDS_MIDDLE {
+        for (j, &from) in start.iter().enumerate().take(form.variables()) {
+            iterate.w[j] = from + share * (middle(from, form.lower[j], form.upper[j], j) - from);
+        }
+        match iterate.evaluate(form) {
+            Err(EvaluationError::Invalid { .. }) => {}
+            other => return other,
+        }
+    }
+    Err(first)
+}
+
+/// A point well inside the bounds; where one is open, off the start by an amount that differs from variable to variable.
+fn middle(start: f64, lower: f64, upper: f64, j: usize) -> f64 {
+    let distance = (1.0 + start.abs()) * (1.0 + 0.1 * (j % 7) as f64);
+    match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => 0.5 * (lower + upper),
+        (true, false) => start.max(lower + distance),
+        (false, true) => start.min(upper - distance),
+        (false, false) => start + distance,
+    }
+}
+
+/// The model's x moved this share of the way towards the middle of its bounds.
+pub(super) fn towards_middle(meta: &Meta, x: &[f64], share: f64) -> Vec<f64> {
+    let moved = |(j, &x): (usize, &f64)| x + share * (middle(x, meta.lower[j], meta.upper[j], j) - x);
+    x.iter().enumerate().map(moved).collect()
+}
+
+/// Bound multipliers μ/slack, at most `largest`.
+pub(super) fn central_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate, mu: f64, largest: f64) {
+    for j in 0..form.size() {
+        let central = |slack: f64| if slack.is_finite() { (mu / slack).min(largest) } else { 0.0 };
+        iterate.z_lower[j] = central(iterate.w[j] - form.lower[j]);
+        iterate.z_upper[j] = central(form.upper[j] - iterate.w[j]);
+    }
+}
+
+/// Bound multipliers 1, the usual first guess.
+pub(super) fn unit_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate) {
+    for j in 0..form.size() {
+        iterate.z_lower[j] = f64::from(u8::from(form.lower[j].is_finite()));
+        iterate.z_upper[j] = f64::from(u8::from(form.upper[j].is_finite()));
+    }
+}
+
+/// Row multipliers by least squares: min ‖∇f + Aᵀy − z_l + z_u‖₂. Zero where they come out large or not at all.
+pub(super) fn least_squares_multipliers(form: &Form<'_>, kkt: &mut Kkt, iterate: &mut Iterate) {
+    iterate.y.fill(0.0);
+    if iterate.y.is_empty() {
+        return;
+    }
+    let mut right = vec![0.0; form.size()];
+    right[..form.variables()].copy_from_slice(&iterate.gradient);
+    for (j, right) in right.iter_mut().enumerate() {
+        *right = iterate.z_lower[j] - iterate.z_upper[j] - *right;
+    }
+    let ones = vec![1.0; form.size()];
+    let hessian = vec![0.0; form.hessian.len()];
+    let blocks = Blocks { hessian: &hessian, jacobian: &iterate.jacobian, sigma: &ones };
+    let (mut w_step, mut y) = (vec![0.0; form.size()], vec![0.0; iterate.y.len()]);
+    let zeros = vec![0.0; iterate.y.len()];
+    let solved = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0)
+        && kkt.solve(Sides { w: &right, rows: &zeros }, &mut w_step, &mut y).is_ok();
+    if solved && norm_max(&y) <= LARGEST_GUESS {
+        iterate.y = y;
+    }
+}
+
+/// Multipliers of an earlier answer (the model's rows and units); bound multipliers follow from stationarity.
+pub(super) fn warm_multipliers(form: &Form<'_>, iterate: &mut Iterate, given: &[f64], mu: f64) {
+    for (i, y) in iterate.y.iter_mut().enumerate() {
+        *y = given.get(form.rows[i]).copied().filter(|y| y.is_finite()).unwrap_or(0.0) * form.objective_scale / form.row_scale[i];
+    }
+    let mut gradient = vec![0.0; form.size()];
+    iterate.lagrangian_gradient(form, &mut gradient);
+    for (j, gradient) in gradient.into_iter().enumerate() {
+        if form.lower[j].is_finite() {
+            iterate.z_lower[j] = gradient.max(mu / (iterate.w[j] - form.lower[j]));
+        }
+        if form.upper[j].is_finite() {
+            iterate.z_upper[j] = (-gradient).max(mu / (form.upper[j] - iterate.w[j]));
+        }
+    }
+}
