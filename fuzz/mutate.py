@@ -4,9 +4,9 @@
 usage: mutate.py RIBOPT [--seconds 60] [--seed 1] [--keep FOLDER] [FILE...]
 
 Seeds are the problem files given (default: problems and the examples), with the tables they name, answers, and meshes and lines of every
-format. Every mutant is solved, checked, compared, drawn or put through a stage of `mesh` with a short --max-seconds. A finding is: an exit code outside 0 to 6, a panic, no end within the
-time given plus five seconds, standard output that is not one JSON object where --json was given, or an input file that has
-changed. Findings are kept with their command. Exit code 1 if there are any. The same seed gives the same mutants.
+format. Every mutant is solved, checked, compared, drawn or put through a stage of `mesh` with a short --max-seconds. A finding is: an
+exit code outside 0 to 6, a panic, a run that takes the processor several times as long, standard output that is not one JSON object
+where --json was given, or an input file that has changed. Findings are kept with their command. Exit code 1 if there are any. The same seed gives the same mutants.
 """
 import argparse
 import glob
@@ -15,7 +15,9 @@ import json
 import os
 import random
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -158,9 +160,14 @@ def sums(folder, parts):
 def finding(ribopt, folder, parts, arguments, is_json, seconds):
     """What is wrong with a run, or None."""
     before = sums(folder, parts)
+    # Of the processor: a busy machine takes longer.
+    most = int(4.0 * seconds) + 6
     try:
-        done = subprocess.run([ribopt] + arguments, cwd=folder, capture_output=True, timeout=seconds + 5.0, stdin=subprocess.DEVNULL)
+        done = subprocess.run([ribopt] + arguments, cwd=folder, capture_output=True, timeout=20.0 * most, stdin=subprocess.DEVNULL,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (most, most + 2)))
     except subprocess.TimeoutExpired:
+        return "no end"
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return "no end"
     if done.returncode not in range(7):
         return f"exit code {done.returncode}"

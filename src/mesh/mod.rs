@@ -46,6 +46,11 @@ pub(crate) fn unit(v: Vector) -> Option<Vector> {
     (norm.is_finite() && norm > 0.0).then(|| v / norm)
 }
 
+/// To six significant digits, which the shortest text of the number then has.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// The angle between two vectors, in [0, π]; accurate for small angles too (Kahan). Zero vectors give 0.
 pub(crate) fn angle(u: &Vector, v: &Vector) -> f64 {
     u.cross(v).norm().atan2(u.dot(v))

@@ -73,9 +73,13 @@ struct Most {
     at: usize,
 }
 
+/// Shares this near to one another are one: of limits that are met together the first one in the file is named, not the one that
+/// rounding prefers.
+const TIE: f64 = 1e-6;
+
 fn larger(a: Option<Most>, b: Option<Most>) -> Option<Most> {
     match (a, b) {
-        (Some(a), Some(b)) => Some(if b.share > a.share { b } else { a }),
+        (Some(a), Some(b)) => Some(if b.share > a.share * (1.0 + TIE) { b } else { a }),
         (one, other) => one.or(other),
     }
 }

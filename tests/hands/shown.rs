@@ -62,7 +62,7 @@ fn pictures_carry_title_units_dimensions_and_dark_colours() {
 fn a_network_tells_where_it_is_used_and_what_governs() {
     let place = Place::new(&[]);
     assert_eq!(place.said("mesh new vault -o v.obj").0, 0);
-    assert_eq!(place.said("mesh ribs v.obj -o v").0, 0);
+    assert_eq!(place.said("mesh ribs v.obj --unit m -o v").0, 0);
     assert_eq!(place.said("solve v/problem.toml -q --plot --backend argmin").0, 0);
     let svg = place.read("results/v/network.svg");
     // Every line governs: sizes are what tells.
