@@ -33,7 +33,6 @@ pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
 pub use types::{Certificate, Scope, Side, Tolerances};
-pub(crate) use words::plain;
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
 const REFINABLE: f64 = 1e-2;

@@ -3,6 +3,7 @@
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::{Certificate, Place, Tolerances, worst_violation};
+use crate::expression::display::plain;
 
 /// Variables that change by less than this share of the largest relative change are not named, nor more than so many.
 const NAMED: f64 = 0.01;
@@ -76,11 +77,6 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
     let (word, limit) = if value < lower { ("below", lower) } else { ("above", upper) };
     let (value, limit, accepted) = (plain(value), plain(limit), tolerances.constraint);
     format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {accepted:.1e})")
-}
-
-/// Without rows of zeros, or of digits.
-pub(crate) fn plain(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {

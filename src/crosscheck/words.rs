@@ -3,7 +3,8 @@
 use super::session::Session;
 use super::{Answer, Conflict, LimitMove, Outcome, Status};
 use crate::backends::Termination;
-use crate::certificate::{Scope, plain};
+use crate::certificate::Scope;
+use crate::expression::display::plain;
 
 /// Names shown at the most.
 const SHOWN: usize = 6;

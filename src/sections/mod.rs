@@ -20,6 +20,7 @@ mod superellipse;
 mod tee;
 mod tube;
 
+use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
 
@@ -180,7 +181,7 @@ fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[Ring]) -> Opt
     let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
     let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);
     let (name, value) = all.find(|(_, value)| !(*value > 0.0 && value.is_finite()))?;
-    Some(format!("{name} is {value}; it must be positive"))
+    Some(format!("{name} is {}; it must be positive", plain(value)))
 }
 
 /// Every form of every kind, in the order [`form`] counts them.

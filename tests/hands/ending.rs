@@ -1,6 +1,5 @@
 //! Every run ends when told.
 
-use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

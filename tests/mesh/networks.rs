@@ -1,5 +1,6 @@
 //! Networks of ribs, rings, poles and units (tests/data/mesh): each the smallest of its kind, with its right result.
 
+use std::fmt::Write;
 use std::fs;
 
 use serde_json::Value;
@@ -157,4 +158,41 @@ fn lines_of_tables_and_drawings() {
     assert!(found["notes"][0].as_str().unwrap().contains("1 CIRCLE"), "{found}");
     fs::write(path.join("b.dxf"), b"AutoCAD Binary DXF\r\n\x1a\0").unwrap();
     assert!(err(&ribopt(path, "mesh check b.dxf")).contains("binary DXF"));
+}
+
+/// Wavy grids side by side, none of which touches another: what is certified one by one is certified together.
+fn wavy(parts: usize) -> String {
+    let (nx, ny) = (10, 8);
+    let (mut points, mut faces) = (String::new(), String::new());
+    for part in 0..parts {
+        for (j, i) in (0..=ny).flat_map(|j| (0..=nx).map(move |i| (j, i))) {
+            let (x, y, shift) = (i as f64, j as f64, part as f64);
+            let at = [
+                x + 0.35 * (1.7 * x + 0.9 * y + shift).sin() + shift * (nx + 5) as f64,
+                y + 0.35 * (2.3 * y + 0.7 * x + shift).cos(),
+                0.5 * (0.3 * x).sin() * (0.4 * y).cos(),
+            ];
+            writeln!(points, "v {} {} {}", at[0], at[1], at[2]).unwrap();
+        }
+        for (j, i) in (0..ny).flat_map(|j| (0..nx).map(move |i| (j, i))) {
+            let first = part * (nx + 1) * (ny + 1) + j * (nx + 1) + i + 1;
+            writeln!(faces, "f {first} {} {} {}", first + 1, first + nx + 2, first + nx + 1).unwrap();
+        }
+    }
+    points + &faces
+}
+
+/// m06.
+#[test]
+fn parts_that_are_certified_are_certified_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut volumes = Vec::new();
+    for parts in [1, 3] {
+        fs::write(folder.path().join("w.obj"), wavy(parts)).unwrap();
+        assert_eq!(ribopt(folder.path(), "mesh ribs w.obj -o w").status.code(), Some(0));
+        let solved = report(folder.path(), "solve w/problem.toml --backend argmin --out out", 0);
+        assert_eq!(solved["status"], "certified");
+        volumes.push(number(&solved, "/objective"));
+    }
+    assert!(volumes[1] > 2.0 * volumes[0], "{volumes:?}");
 }

@@ -67,7 +67,8 @@ fn from_a_mesh_to_solids() {
         // The two lines cross at one vertex.
         assert_eq!(number(&built, "/overlapping_joints"), 1.0);
         let picture = fs::read_to_string(path.join("out/network.svg")).unwrap();
-        assert_eq!(picture.matches("<title>").count(), 7);
+        // A title per rib, and its own.
+        assert_eq!(picture.matches("<title>").count(), 8);
         let vtu = fs::read_to_string(path.join("s.vtu")).unwrap();
         assert!(
             ["utilisation", "area", "length", "volume"].iter().all(|name| vtu.contains(&format!("Name=\"{name}\""))),
