@@ -18,12 +18,12 @@ mod half_edge;
 pub mod hausdorff;
 pub mod invariants;
 pub mod network;
-pub mod plot;
 mod polygon_mesh;
 pub mod quality;
 pub mod reconstruct;
 pub mod ribs;
 pub mod section;
+pub mod shade;
 pub mod smooth;
 pub mod solids;
 pub mod stations;
@@ -44,6 +44,11 @@ pub const NONE: u32 = u32::MAX;
 pub(crate) fn unit(v: Vector) -> Option<Vector> {
     let norm = v.norm();
     (norm.is_finite() && norm > 0.0).then(|| v / norm)
+}
+
+/// To six significant digits, which the shortest text of the number then has.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// The angle between two vectors, in [0, π]; accurate for small angles too (Kahan). Zero vectors give 0.
