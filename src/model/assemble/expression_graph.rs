@@ -15,6 +15,7 @@ use crate::problem::evaluate::Evaluation;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::Law;
+use crate::structure::Tapered;
 pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.
@@ -307,6 +308,13 @@ impl<'a> Lowering<'a> {
         match (formula, context.item) {
             (Formula::OwnProperty(property), Item::Section(section)) => self.own_property(section, property),
             (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
+            (Formula::AtProperty(x, Property(name)), Item::Rib(rib)) => {
+                let sections = [End::From, End::To].map(|end| end_section(problem, rib, end));
+                let [start, end] = sections.map(|section| self.own_section(section));
+                let form = crate::sections::form(problem.sections.form[sections[0] as usize]);
+                let tapered = Tapered { form, outline: problem.outline(sections[0]), start: &start, end: &end };
+                tapered.property(&mut self.graph, *x, name)
+            }
             (Formula::OwnMaterial(name), item) => self.own_number(item, OwnNumber::Material(Arc::clone(name))),
             (Formula::OwnLength, Item::Rib(rib)) => self.rib_length(rib, true),
             (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),

@@ -89,6 +89,9 @@ impl<'a> Resolver<'a, '_> {
         let found = match (scope.collection, parts) {
             (Collection::Ribs, ["from" | "to", _]) if self.elements(parts).is_some() => return None,
             (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
+            (Collection::Ribs, ["at", name]) if self.world.problem.structure.is_some() => {
+                return Some(self.at_station(name, span));
+            }
             (Collection::Ribs, [word @ "material", name]) => return self.material(word, name, span),
             (Collection::Ribs, [name @ ("mass" | "weight")]) if self.is_free(name) => return Some(self.mass(name, span)),
             (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),
