@@ -213,7 +213,9 @@ impl Model for RibModel {
 
     fn complete(&self, x: &mut [f64]) {
         let first = self.problem.auxiliaries.first().map_or(0, |first| self.rows_before(first.constraints.start));
-        auxiliaries::complete(self, &self.problem.auxiliaries, first, x.len(), x);
+        // In the inner problem of a structure inputs stand behind the auxiliaries.
+        let end = if self.problem.inputs_are_forces { self.problem.first_input as usize } else { x.len() };
+        auxiliaries::complete(self, &self.problem.auxiliaries, first, end, x);
     }
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {

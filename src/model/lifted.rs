@@ -7,7 +7,8 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::views::mapped::{Mapped, Maps, Rows};
+use super::views::composed::{Composed, Links};
+use super::views::mapped::{Mapped, Maps};
 use super::views::reduced::{Factors, Stiffness};
 use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
@@ -44,7 +45,7 @@ pub trait WithStates: Model {
 /// positive as negative eigenvalues whatever L_uu is, the inertia of the lifted system is that of the reduced one and of these
 /// (Haynsworth 1968).
 pub struct Lifted {
-    model: Mapped<RibModel>,
+    model: Composed<Mapped<RibModel>, RibModel>,
     problem: Arc<Problem>,
     states: States,
     /// Node and direction of each state of a block.
@@ -69,15 +70,20 @@ impl Lifted {
             .flat_map(|node| (0..6u8).map(move |direction| (node, direction)))
             .filter(|&(node, direction)| statics.is_free(node, direction.into()))
             .collect();
-        let inner = assemble(&Arc::new(equations::inner_problem(problem, structure, statics)))?;
-        let first_row = inner.rows_before(problem.constraints.len());
+        let forces = assemble(&Arc::new(equations::forces_problem(problem, structure, statics)))?;
+        let rows = assemble(&Arc::new(equations::rows_problem(problem, structure, statics)))?;
+        let first_row = rows.meta().rows();
         let states = States { first_variable: own, first_row, block: directions.len(), blocks: structure.cases.len() };
         let numbering = Numbering { states, of: directions.iter().zip(0..).map(|(&at, number)| (at, number)).collect() };
         let mut maps = Maps::default();
-        inputs(structure, statics, &numbering, &mut maps);
-        let limits = equations::outputs(&inner, structure, statics, &numbering, &mut maps);
-        let meta = outer_meta(inner.meta(), states, &limits);
-        let model = Mapped::new(inner, maps, meta);
+        deformations(structure, statics, &numbering, &mut maps);
+        let (known, limits) = equations::outputs(&forces, structure, statics, &numbering, &mut maps);
+        let meta = outer_meta(rows.meta(), states, &limits);
+        let of_forces =
+            Meta { row_lower: vec![0.0; maps.outputs.len()], row_upper: vec![0.0; maps.outputs.len()], ..meta.clone() };
+        let own_rows = known.len();
+        let links = links(structure, statics, &numbering, &known);
+        let model = Composed::new(Mapped::new(forces, maps, of_forces), rows, links, own_rows, meta);
         let stiffness = Stiffness::of(model.meta(), states);
         let problem = Arc::clone(problem);
         let mut lifted = Lifted { model, problem, states, directions, stiffness, latest: Mutex::default() };
@@ -119,9 +125,9 @@ impl Lifted {
         (node, direction.into())
     }
 
-    /// The assembled elements.
+    /// The model of the user's rows, over design variables and inputs.
     pub fn inner(&self) -> &RibModel {
-        self.model.inner()
+        self.model.second()
     }
 
     fn state_name(&self, at: usize) -> String {
@@ -158,42 +164,87 @@ impl Numbering {
     }
 }
 
-/// B and b: design variables as they are, then for every case and combination what its inputs are made of.
-fn inputs(structure: &Structure, statics: &Statics, numbering: &Numbering, maps: &mut Maps) {
+/// What an input is made of where it is linear in the displacements: entries and constant.
+struct Linear<'a> {
+    structure: &'a Structure,
+    statics: &'a Statics,
+    numbering: &'a Numbering,
+    settled: HashMap<(u32, u32, u8), f64>,
+}
+
+impl Linear<'_> {
+    fn of(&self, factors: &[(u32, f64)], input: Input) -> (Vec<(u32, f64)>, f64) {
+        let (mut entries, mut constant): (Vec<(u32, f64)>, f64) = (Vec::new(), 0.0);
+        let mut add = |node: u32, direction: usize, coefficient: f64| {
+            for &(case, factor) in factors {
+                match self.numbering.variable(case, node, direction) {
+                    Some(variable) => entries.push((variable, factor * coefficient)),
+                    None => {
+                        let held = self.settled.get(&(case, node, direction as u8)).copied().unwrap_or(0.0);
+                        constant += factor * coefficient * held;
+                    }
+                }
+            }
+        };
+        match input {
+            Input::Displacement(node, direction) => add(node, direction, 1.0),
+            Input::Deformation(member, component) => {
+                let declared = &self.structure.members[member as usize];
+                let row = &self.statics.members[member as usize].rows[component];
+                for (at, &coefficient) in row.iter().enumerate().filter(|(_, coefficient)| **coefficient != 0.0) {
+                    add(if at < 6 { declared.start } else { declared.end }, at % 6, coefficient);
+                }
+            }
+        }
+        (entries, constant)
+    }
+}
+
+/// B and b of the forces: design variables as they are, then what members deform by in every case.
+fn deformations(structure: &Structure, statics: &Statics, numbering: &Numbering, maps: &mut Maps) {
     for j in 0..numbering.states.first_variable as u32 {
         maps.inputs.push([(j, 1.0)]);
         maps.constants.push(0.0);
     }
-    let settled = settlements(structure);
-    for set in 0..structure.load_sets() as u32 {
-        let factors = structure.factors(set);
+    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
+    for case in 0..structure.cases.len() as u32 {
         for at in 0..statics.inputs {
-            let (mut entries, mut constant): (Vec<(u32, f64)>, f64) = (Vec::new(), 0.0);
-            let mut add = |node: u32, direction: usize, coefficient: f64| {
-                for &(case, factor) in &factors {
-                    match numbering.variable(case, node, direction) {
-                        Some(variable) => entries.push((variable, factor * coefficient)),
-                        None => {
-                            let held = settled.get(&(case, node, direction as u8)).copied().unwrap_or(0.0);
-                            constant += factor * coefficient * held;
-                        }
-                    }
-                }
-            };
-            match statics.input(at) {
-                Input::Displacement(node, direction) => add(node, direction, 1.0),
-                Input::Deformation(member, component) => {
-                    let declared = &structure.members[member as usize];
-                    let row = &statics.members[member as usize].rows[component];
-                    for (at, &coefficient) in row.iter().enumerate().filter(|(_, coefficient)| **coefficient != 0.0) {
-                        add(if at < 6 { declared.start } else { declared.end }, at % 6, coefficient);
-                    }
-                }
-            }
+            let (entries, constant) = linear.of(&[(case, 1.0)], statics.input(at));
             maps.inputs.push(entries);
             maps.constants.push(constant);
         }
     }
+}
+
+/// The first row of the forces that is a state equation is their number; before it stand the basic forces of members known by them.
+type Known = HashMap<(u32, u32, u8), u32>;
+
+/// What the user's rows look at, in every case and combination: basic forces, deformations of bars, displacements.
+fn links(structure: &Structure, statics: &Statics, numbering: &Numbering, known: &Known) -> Links {
+    let mut links = Links::default();
+    for j in 0..numbering.states.first_variable as u32 {
+        links.variables.push([(j, 1.0)]);
+        links.rows.push([]);
+        links.constants.push(0.0);
+    }
+    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
+    for set in 0..structure.load_sets() as u32 {
+        let factors = structure.factors(set);
+        for at in 0..statics.inputs {
+            let input = statics.input(at);
+            let force = |&(case, factor): &(u32, f64)| match input {
+                Input::Deformation(member, component) => Some((*known.get(&(case, member, component as u8))?, factor)),
+                Input::Displacement(..) => None,
+            };
+            let forces: Vec<(u32, f64)> = factors.iter().filter_map(force).collect();
+            let by_forces = matches!(input, Input::Deformation(member, _) if statics.members[member as usize].by_forces);
+            let (entries, constant) = if by_forces { (Vec::new(), 0.0) } else { linear.of(&factors, input) };
+            links.variables.push(entries);
+            links.rows.push(forces);
+            links.constants.push(constant);
+        }
+    }
+    links
 }
 
 /// Prescribed displacements by case, node and direction.
@@ -317,9 +368,4 @@ fn with_inputs(problem: &mut Problem, inputs: usize) {
         let length = column.len() + inputs;
         column.resize(length, value);
     }
-}
-
-/// Rows that pass on what they are.
-fn identity(rows: &mut Rows, row: u32) {
-    rows.push([(row, 1.0)]);
 }

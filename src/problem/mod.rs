@@ -76,6 +76,8 @@ pub struct Problem {
     pub structure: Option<Arc<structure::Structure>>,
     /// The number of the first input that stands for a deformation or a displacement, in the inner problem of a structure.
     pub first_input: u32,
+    /// Whether members known by their basic forces have these for inputs, rather than deformations.
+    pub inputs_are_forces: bool,
     /// What follows from it, see [`Problem::prepare`].
     pub statics: Option<Arc<statics::Statics>>,
     /// `[solver]`.

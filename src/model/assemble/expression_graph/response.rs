@@ -64,7 +64,9 @@ impl Lowering<'_> {
             Some(input) => self.variable(input),
             None => self.graph.constant(0.0),
         });
-        MemberNodes { length, young, shear: Some(shear), loads, deformations, rows: None, frame: None }
+        let by_forces = self.problem.inputs_are_forces && framework.member(member).1.by_forces;
+        let forces = by_forces.then_some(deformations);
+        MemberNodes { length, young, shear: Some(shear), loads, deformations, forces, rows: None, frame: None }
     }
 
     /// A member whose nodes or modulus vary with the design: everything as formulas of them and of its ends' displacements.
@@ -89,7 +91,16 @@ impl Lowering<'_> {
                 false => self.graph.constant(0.0),
             }),
         };
-        MemberNodes { length: frame.length, young, shear, loads, deformations, rows: Some(rows), frame: Some(frame) }
+        MemberNodes {
+            length: frame.length,
+            young,
+            shear,
+            loads,
+            deformations,
+            forces: None,
+            rows: Some(rows),
+            frame: Some(frame),
+        }
     }
 
     /// Length and axes of a member as formulas of its nodes' coordinates.
@@ -155,6 +166,7 @@ impl Lowering<'_> {
             grading: &prepared.grading,
             loads: nodes.loads,
             deformations: nodes.deformations,
+            forces: nodes.forces,
         };
         then(&mut self.graph, &beam)
     }
@@ -293,7 +305,7 @@ impl Lowering<'_> {
             return self.graph.constant(0.0);
         }
         let known = self.member(framework, member, set);
-        let held = MemberNodes { deformations: [self.graph.constant(0.0); BASIC], ..known.clone() };
+        let held = MemberNodes { deformations: [self.graph.constant(0.0); BASIC], forces: None, ..known.clone() };
         self.members.insert((member, set), held);
         let mut parts = Vec::new();
         for at in 0..12 {
