@@ -1,5 +1,7 @@
 //! Exact derivatives against an independent method: Ridders' extrapolated central differences (Ridders 1982).
 
+use std::collections::HashMap;
+
 use super::{Components, EvaluationError, Model};
 
 /// Variables looked at one by one; of a larger model an even selection of as many is.
@@ -155,10 +157,11 @@ fn compare_column(model: &dyn Model, x: &[f64], j: usize, exact: &Exact, check: 
     };
     let mut column = vec![exact.gradient[j]];
     column.extend(exact.jacobian_column(model, j));
-    compare(x, j, &column, values, name, check);
+    let families = families(model);
+    compare(x, j, &column, values, name, &families, check);
     let gradient = |x: &[f64]| lagrangian_gradient(model, x, &exact.y);
     let second = |i: usize| format!("∂²L/∂({})∂({variable})", model.variable_name(i));
-    compare(x, j, &exact.hessian_column(model, j), gradient, second, check);
+    compare(x, j, &exact.hessian_column(model, j), gradient, second, &[], check);
 }
 
 fn lagrangian_gradient(model: &dyn Model, x: &[f64], y: &[f64]) -> Option<Vec<f64>> {
@@ -177,9 +180,11 @@ fn compare(
     exact: &[f64],
     f: impl Fn(&[f64]) -> Option<Vec<f64>>,
     name: impl Fn(usize) -> String,
+    families: &[usize],
     check: &mut DerivativeCheck,
 ) {
-    let Some((numeric, noise, size)) = ridders(x, j, f) else { return };
+    let Some((numeric, noise, mut size)) = ridders(x, j, f) else { return };
+    share_sizes(families, &mut size);
     let reach = x[j].abs().max(1e-3);
     for (at, &exact) in exact.iter().enumerate() {
         if exact == 0.0 && numeric[at] == 0.0 {
@@ -190,6 +195,26 @@ fn compare(
         let error = if numeric[at].is_finite() { excess / scale } else { f64::NAN };
         check.add(Entry { name: name(at), exact, numeric: numeric[at], error });
     }
+}
+
+/// Which entries (the objective, then the rows) are of one constraint, by the first of them. Where rows are responses of a structure, what
+/// rounding leaves in one is a share of its terms, and these are as large as the other rows of its constraint: a stress that is zero by statics
+/// has its differences in units of the stresses elsewhere.
+fn families(model: &dyn Model) -> Vec<usize> {
+    let mut first: HashMap<String, usize> = HashMap::new();
+    let rows = (0..model.meta().rows()).map(|row| {
+        let name = model.row_name(row);
+        let own = name.split('[').next().unwrap_or_default().to_owned();
+        *first.entry(own).or_insert(row + 1)
+    });
+    std::iter::once(0).chain(rows).collect()
+}
+
+/// Gives all entries of a family the size of the largest.
+fn share_sizes(families: &[usize], size: &mut [f64]) {
+    let mut largest = vec![0.0_f64; size.len()];
+    families.iter().zip(size.iter()).for_each(|(&family, &size)| largest[family] = largest[family].max(size));
+    families.iter().zip(size.iter_mut()).for_each(|(&family, size)| *size = largest[family]);
 }
 
 /// The largest step of 0.02·|x| and its quarters that has values on both sides, and these values.

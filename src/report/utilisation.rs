@@ -1,5 +1,6 @@
 //! How far every limit is used: value, limit and per cent, row by row as CSV, grouped on the console.
 
+use std::collections::HashMap;
 use std::io::{self, Write};
 
 use super::number::{exact, short, significant};
@@ -33,6 +34,8 @@ pub struct Use {
 pub struct Declared {
     /// Its name.
     pub name: String,
+    /// Case, station and point it is spread over; empty where it is not.
+    pub detail: String,
     /// `section`, `rib`, `group`, or nothing.
     pub of: &'static str,
 }
@@ -64,8 +67,10 @@ pub struct Table {
 impl Table {
     /// The row's name as in `constraints.csv`.
     pub fn row_name(&self, used: &Use) -> String {
-        let name = self.constraints.get(used.constraint).map_or("", |declared| declared.name.as_str());
-        if used.item.is_empty() { name.into() } else { format!("{name}[{}]", used.item) }
+        let Some(declared) = self.constraints.get(used.constraint) else { return String::new() };
+        let parts: Vec<&str> =
+            [used.item.as_str(), declared.detail.as_str()].into_iter().filter(|part| !part.is_empty()).collect();
+        if parts.is_empty() { declared.name.clone() } else { format!("{}[{}]", declared.name, parts.join(", ")) }
     }
 
     /// Writes [`HEADER`] and one line per limit.
@@ -93,8 +98,12 @@ impl Table {
     /// Whatever the writer says.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut lines: Vec<(&Use, usize)> = Vec::new();
+        // A constraint that is spread over cases, stations and points is one line.
+        let mut known: HashMap<(&str, bool), usize> = HashMap::new();
         for used in &self.uses {
-            match lines.last_mut().filter(|(most, _)| most.constraint == used.constraint && most.from_above == used.from_above) {
+            let name = self.constraints.get(used.constraint).map_or("", |declared| declared.name.as_str());
+            let at = *known.entry((name, used.from_above)).or_insert(lines.len());
+            match lines.get_mut(at) {
                 Some((most, rows)) => {
                     *rows += 1;
                     if used.share > most.share {
@@ -159,7 +168,10 @@ mod tests {
             share: Some(share),
         };
         Table {
-            constraints: vec![Declared { name: "stress".into(), of: "rib" }, Declared { name: "=sag".into(), of: "" }],
+            constraints: vec![
+                Declared { name: "stress".into(), detail: String::new(), of: "rib" },
+                Declared { name: "=sag".into(), detail: String::new(), of: "" },
+            ],
             uses: vec![used(0, "r1", 100.0, 235.0, 0.4255), used(0, "r2", 235.0, 235.0, 1.0), used(1, "", 3.0, 4.0, 0.75)],
             items: Vec::new(),
         }

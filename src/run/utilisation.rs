@@ -43,7 +43,8 @@ pub fn table(subject: &Subject, x: &[f64]) -> Result<Table, EvaluationError> {
     let problem = subject.problem();
     let uses = uses(subject, x)?;
     let found = Found::of(problem, &uses);
-    let constraints = problem.constraints.iter().map(|own| Declared { name: own.name.clone(), of: of(&own.scope) }).collect();
+    let declared = |own: &Constraint| Declared { name: own.name.clone(), detail: own.detail.to_string(), of: of(&own.scope) };
+    let constraints = problem.constraints.iter().map(declared).collect();
     let mut table = Table { constraints, uses: uses.into_iter().map(|row| row.used).collect(), items: Vec::new() };
     let all = [("section", Collection::Sections, &found.sections), ("rib", Collection::Ribs, &found.ribs)];
     for (of, collection, list) in all {

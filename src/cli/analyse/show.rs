@@ -104,7 +104,8 @@ fn by_node(title: &str, list: &[(u32, usize, f64)], structure: &Structure, out: 
 
 fn ribs(case: &CaseResponses, problem: &Problem, out: &mut dyn Write) -> io::Result<()> {
     let mut table = TextTable::new(2, &["rib", "", "least", "at", "most", "at", ""]);
-    let all: Vec<&Extreme> = case.forces.iter().chain(&case.stresses).collect();
+    let nothing = |extreme: &&Extreme| extreme.least.0 == 0.0 && extreme.most.0 == 0.0;
+    let all: Vec<&Extreme> = case.forces.iter().chain(&case.stresses).filter(|extreme| !nothing(extreme)).collect();
     let mut sorted = all.clone();
     sorted.sort_by_key(|extreme| extreme.rib);
     for extreme in sorted.iter().take(6 * MOST) {

@@ -141,6 +141,17 @@ impl<'a> Resolver<'a, '_> {
                 let forms = self.forms(structure, rib);
                 let known: Vec<Points> = forms.iter().map(|&form| sections::kind_of(form).points(sections::form(form))).collect();
                 let point = |word: &str| known.iter().any(|points| names_point(points, word)).then(|| Arc::<str>::from(word));
+                let unknown = arguments
+                    .list
+                    .front()
+                    .and_then(|next| next.word)
+                    .filter(|word| point(word).is_none() && self.world.names.find(self.world.problem, word).is_none());
+                if let (Some(word), Some(next)) = (unknown, arguments.list.front()) {
+                    let names: Vec<&str> = known.iter().flat_map(|points| all_points(points)).collect();
+                    let help =
+                        did_you_mean(word, names.iter().copied()).unwrap_or_else(|| format!("its points: {}", names.join(", ")));
+                    return self.mistake(next.ast.span, format!("`{word}` is no point of the section"), Some(help));
+                }
                 let is_point = arguments.list.front().and_then(|next| next.word).is_some_and(|word| point(word).is_some());
                 let station = if is_point { self.open_station(arguments.span)? } else { self.station(arguments)? };
                 let point = match arguments.word(&point) {

@@ -183,9 +183,39 @@ fn collected(structure: &Structure, model: &Reduced<Lifted>, rows: &[Row], value
             }
         }
     }
+    cases.iter_mut().for_each(without_rounding);
     cases.iter_mut().for_each(|case| case.displacements.sort_by_key(|&(node, direction, _)| (node, direction)));
     cases.iter_mut().for_each(|case| case.reactions.sort_by_key(|&(node, direction, _)| (node, direction)));
     cases
+}
+
+/// What rounding leaves of a zero, relative to the largest value of its kind in the structure.
+const ROUNDING: f64 = 1e-12;
+
+/// Forces and moments, displacements and rotations that are zero but for rounding are zero.
+fn without_rounding(case: &mut CaseResponses) {
+    let turns = |of: &str| matches!(of, "T" | "My" | "Mz");
+    for moments in [false, true] {
+        let of_kind = |extreme: &&mut Extreme| turns(extreme.of) == moments;
+        let reach = |extreme: &Extreme| extreme.least.0.abs().max(extreme.most.0.abs());
+        let largest = case.forces.iter().filter(|extreme| turns(extreme.of) == moments).map(reach).fold(0.0, f64::max);
+        for extreme in case.forces.iter_mut().filter(of_kind) {
+            for end in [&mut extreme.least, &mut extreme.most] {
+                if end.0.abs() <= ROUNDING * largest {
+                    end.0 = 0.0;
+                }
+            }
+        }
+    }
+    for list in [&mut case.displacements, &mut case.reactions] {
+        for rotations in [false, true] {
+            let of_kind = |direction: usize| (direction >= 3) == rotations;
+            let largest = list.iter().filter(|(_, at, _)| of_kind(*at)).map(|(.., value)| value.abs()).fold(0.0, f64::max);
+            list.iter_mut()
+                .filter(|(_, at, value)| of_kind(*at) && value.abs() <= ROUNDING * largest)
+                .for_each(|entry| entry.2 = 0.0);
+        }
+    }
 }
 
 /// Where each extreme stands in its list: by set, rib and force.

@@ -4,6 +4,7 @@
 //! combinations; in the end, when starts of variables are known, places and lengths.
 
 mod cases;
+mod coupled;
 mod early;
 mod lengths;
 mod loads;
@@ -129,6 +130,7 @@ impl Assembly<'_> {
         self.building.structure.member_of_rib.resize(self.problem.ribs.names.len(), None);
         self.lengths();
         self.problem.structure = Some(Arc::new(std::mem::take(&mut self.building.structure)));
+        self.coupled_sections();
         self.first_sight(declared.structure.place);
     }
 }
