@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use ribopt::certificate::{Tolerances, certify};
 use ribopt::input;
 use ribopt::model::derivative_check::derivative_check;
 use ribopt::model::{Class, Model, RibModel, assemble, classify};
@@ -170,6 +171,9 @@ fn classes_are_proved_by_structure() {
     assert_eq!(class(&problem("x*y + x/y", "x*y^3/12 >= 2")), Class::GeometricProgram);
     assert_eq!(class(&problem("x*y", "g <= 0")), Class::GeometricProgram, "a definition is seen through");
     assert_eq!(class(&problem("x*y", "1/x + y <= 4 - 1")), Class::GeometricProgram);
+    let maximised = problem("-(x*y + x/y)", "x*y^3/12 >= 2").replace("minimize", "maximize");
+    assert_eq!(class(&maximised), Class::GeometricProgram, "maximising −f is minimising f");
+    assert_eq!(class(&maximised.replace("-(x*y + x/y)", "2*(-(x*y) - x/y)")), Class::GeometricProgram);
     assert_eq!(class(&problem("x^2 + exp(y)", "x^2 - sqrt(y) <= 3")), Class::Convex);
     assert_eq!(class(&problem("x*y", "x + y >= 1")), Class::Nonlinear, "a posynomial bounded from below");
     assert_eq!(class(&problem("x*y", "x*y == 2")), Class::GeometricProgram);
@@ -188,4 +192,13 @@ fn rectangles_are_geometric_programs_and_h_beams_with_stiffness_are_not() {
     let classification = classify(&stiff).unwrap();
     assert_eq!(classification.class, Class::Nonlinear);
     assert!(classification.not_geometric.unwrap().contains("constraint Ix"));
+}
+
+#[test]
+fn parts_that_pass_pass_together() {
+    // Thirty parts, each with a gap just within what is accepted; their sum is beyond.
+    let model = model("minimize = \"sum(x)\"\n[variables]\nx = {size=30,lower=1,start=1.5}\n");
+    let judge = |gap: f64| certify(&model, Class::Nonlinear, &[1.0 + gap; 30], None, Tolerances::default()).unwrap();
+    assert!(judge(5e-7).certified, "{:?}", judge(5e-7).messages);
+    assert!(!judge(5e-6).certified);
 }

@@ -3,6 +3,7 @@
 //! (feasibility-based bound tightening), and rounded outwards.
 
 use super::point::Point;
+use super::row_range::{End, range};
 
 /// Sweeps over all rows at the most.
 const SWEEPS: usize = 12;
@@ -55,39 +56,20 @@ fn lines(point: &Point<'_>) -> Vec<Line> {
     (0..meta.rows()).map(row).chain([objective]).filter(|line| line.magnitude.is_finite()).collect()
 }
 
-/// The least and the most of coefficient·v.
-fn range(coefficient: f64, lower: f64, upper: f64) -> (f64, f64) {
-    if coefficient > 0.0 { (coefficient * lower, coefficient * upper) } else { (coefficient * upper, coefficient * lower) }
-}
-
 /// Tightens open bounds only: those that are closed are the user's, and exact. True where one was closed.
 fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64]) -> bool {
-    // Finite part, its magnitude and the number of open ends, from below and from above.
-    let (mut least, mut most) = ((0.0, 0usize), (0.0, 0usize));
-    let mut magnitude = line.magnitude;
+    let (mut least, mut most) = (End::default(), End::default());
     for &(j, coefficient) in &line.entries {
         let (low, high) = range(coefficient, lower[j], upper[j]);
-        for (end, sum) in [(low, &mut least), (high, &mut most)] {
-            if end.is_finite() {
-                sum.0 += end;
-                magnitude += end.abs();
-            } else {
-                sum.1 += 1;
-            }
-        }
+        least.add(low);
+        most.add(high);
     }
-    let slack = SLACK * magnitude;
+    let slack = SLACK * (line.magnitude + least.magnitude + most.magnitude);
     let mut changed = false;
     for &(j, coefficient) in &line.entries {
         let (low, high) = range(coefficient, lower[j], upper[j]);
-        // What the others leave, where this variable is the only open one among them or none is.
-        let rest = |own: f64, sum: (f64, usize)| match (own.is_finite(), sum.1) {
-            (true, 0) => Some(sum.0 - own),
-            (false, 1) => Some(sum.0),
-            _ => None,
-        };
-        let at_most = rest(low, least).map(|rest| line.upper - rest + slack).filter(|end| end.is_finite());
-        let at_least = rest(high, most).map(|rest| line.lower - rest - slack).filter(|end| end.is_finite());
+        let at_most = least.without(low).map(|rest| line.upper - rest + slack).filter(|end| end.is_finite());
+        let at_least = most.without(high).map(|rest| line.lower - rest - slack).filter(|end| end.is_finite());
         let (new_lower, new_upper) = if coefficient > 0.0 { (at_least, at_most) } else { (at_most, at_least) };
         if let Some(end) = new_upper.map(|end| outward(end / coefficient, 1.0)).filter(|_| upper[j] == f64::INFINITY) {
             (upper[j], changed) = (end.max(0.0), true);

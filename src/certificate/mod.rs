@@ -1,4 +1,4 @@
-//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (SPEC §4).
+//! The proof at a point, by code that knows no solver: it depends on the problem and the point alone (docs/certificate.md).
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
@@ -10,8 +10,10 @@ mod higher_order;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
+mod newton;
 mod point;
 mod propagation;
+mod row_range;
 mod runaway;
 mod scales;
 mod second_order;
@@ -24,9 +26,12 @@ use feasibility::{Feasibility, worst_violation};
 use std::time::Instant;
 
 use multipliers::Multipliers;
+use newton::Newton;
 use point::{Origin, Point};
 use second_order::{Active, Curvature, Hessian};
 
+use crate::linear_algebra::Partition;
+use crate::math::split_mix::SplitMix;
 use crate::model::{Class, EvaluationError, Model};
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
@@ -118,6 +123,13 @@ impl<'a> Certifier<'a> {
         {
             certificate.complementarity = certificate.complementarity.max(gain);
         }
+        if self.is_stationary(&certificate) && !point.meta().objective_is_linear {
+            if point.sigma == 0.0 {
+                point.add_curvature()?;
+                point.relies_on_curvature = true;
+            }
+            certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
+        }
         certificate.scope = Scope::of(self.class);
         self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
@@ -201,12 +213,24 @@ impl<'a> Certifier<'a> {
             false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
         let falls_further = descent.is_some();
-        let runaway = match bends_down || falls_further {
+        let mut runaway = match bends_down || falls_further {
             true => Vec::new(),
             false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
-        certificate.certified = !bends_down && !falls_further && undecided.is_none() && runaway.is_empty();
-        certificate.escape = escape.or(descent);
+        let mut elsewhere = None;
+        let may_deceive = !bends_down && !falls_further && runaway.is_empty();
+        if may_deceive && self.class != Class::Linear && !point.is_over() {
+            match newton::steps(point, &active, self.tolerances.constraint) {
+                Newton::Stays => {}
+                Newton::LeadsTo(direction) => elsewhere = Some(direction),
+                Newton::Falls(variables) => runaway = variables,
+            }
+        }
+        certificate.led_on = elsewhere.is_some();
+        certificate.cut_short = point.is_cut_short();
+        let goes_on = !runaway.is_empty() || certificate.led_on || certificate.cut_short;
+        certificate.certified = !bends_down && !falls_further && undecided.is_none() && !goes_on;
+        certificate.escape = escape.or(descent).or(elsewhere);
         (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
         certificate.undecided = undecided.filter(|_| !falls_further);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
@@ -233,12 +257,32 @@ impl<'a> Certifier<'a> {
             primal_infeasibility: feasibility.infeasibility,
             met_only_far_away: feasibility.only_far_away,
             dual_infeasibility: worst_slope(point, multipliers, None).1,
-            complementarity: worst_complementarity(point, multipliers).1,
+            complementarity: self.complementarity(point, multipliers),
             row_sides: (0..meta.rows()).map(row_side).collect(),
             bound_sides: (0..meta.variables()).map(bound_side).collect(),
             sigma: point.sigma,
             ..Certificate::default()
         }
+    }
+
+    /// Σ|multiplier|·|distance|/σ; where a model falls apart, of the worst part: many parts that each pass are no fault together.
+    fn complementarity(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+        let (sum, meta) = (worst_complementarity(point, multipliers).1, point.meta());
+        if sum <= self.tolerances.optimality {
+            return sum;
+        }
+        let Some(parts) = Partition::of_patterns(&meta.jacobian, &meta.hessian) else { return sum };
+        let mut sums = vec![0.0; parts.len()];
+        for (place, term) in complementarity_terms(point, multipliers) {
+            let variable = match place {
+                Place::Row(i) => meta.jacobian.row(i).first().copied(),
+                Place::Variable(j) => Some(j as u32),
+            };
+            // A row without variables is no part's.
+            let Some(variable) = variable else { return sum };
+            sums[parts.component(variable) as usize] += term;
+        }
+        sums.into_iter().fold(0.0, f64::max)
     }
 
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
@@ -331,18 +375,43 @@ fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
     point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    total.iter().zip(&point.sizes).fold(0.0, |most: f64, (sum, &d)| most.max(f64::EPSILON * sum * d / point.sigma))
+    let free = (0..total.len()).filter(|&j| !point.meta().is_fixed(j));
+    free.fold(0.0, |most: f64, j| most.max(f64::EPSILON * total[j] * point.sizes[j] / point.sigma))
 }
 
-/// Σ|multiplier|·|distance to its limit|/σ, and its largest term.
-fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
+/// Last digits by which the point is moved to see what rounding makes of the objective.
+const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
+
+/// What the last digits of x make of the objective, in units of σ, beyond rounding of its value: where that is more than what is
+/// accepted of a slope, its terms cancel one another and its derivatives may be anything.
+fn objective_lost(point: &Point<'_>) -> f64 {
+    ((last_digits(point) - 64.0 * f64::EPSILON * point.objective.abs()) / point.scale()).max(0.0)
+}
+
+/// What the last digits of x make of the objective.
+fn last_digits(point: &Point<'_>) -> f64 {
+    let change = |digits: f64| {
+        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
+        let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
+        point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
+    };
+    DIGITS.into_iter().map(change).fold(0.0, f64::max)
+}
+
+/// |multiplier|·|distance to its limit|/σ, limit by limit.
+fn complementarity_terms<'a>(point: &'a Point<'_>, multipliers: &'a Multipliers) -> impl Iterator<Item = (Place, f64)> + 'a {
     let term = |multiplier: f64, value: f64, limit: f64| {
         if multiplier == 0.0 { 0.0 } else { multiplier.abs() * (value - limit).abs() / point.scale() }
     };
-    let rows = multipliers.rows.iter().enumerate().map(|(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
+    let rows = multipliers.rows.iter().enumerate();
+    let rows = rows.map(move |(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
     let bounds = multipliers.bounds.iter().enumerate();
-    let bounds = bounds.map(|(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z))));
+    rows.chain(bounds.map(move |(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z)))))
+}
+
+/// Their sum, and the largest of them.
+fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
     let add = |(worst, sum): (Worst, f64), next: (Place, f64)| (worse(worst, next), sum + next.1);
-    let (worst, sum) = rows.chain(bounds).fold(((None, 0.0), 0.0), add);
+    let (worst, sum) = complementarity_terms(point, multipliers).fold(((None, 0.0), 0.0), add);
     (worst.0, sum)
 }

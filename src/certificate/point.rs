@@ -1,6 +1,7 @@
 //! Values, derivatives and scales at the point to be judged.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
 
 use super::scales;
@@ -46,17 +47,19 @@ pub(super) struct Point<'a> {
     pub(super) sizes: Vec<f64>,
     /// d_j as it was before curvature had a say.
     plain_sizes: Vec<f64>,
-    /// σ: ‖D∇f(x)‖∞, or more, see [`Point::add_curvature`].
+    /// σ: ‖D∇f(x)‖∞ over the variables that can move, or more, see [`Point::add_curvature`].
     pub(super) sigma: f64,
     /// ‖D∇f(x)‖∞, and Σ_k |∂²f/∂x_j∂x_k|·d_j·d_k variable by variable where that has been looked at.
     steepest: f64,
     bends: Vec<f64>,
     /// Only curvature makes the slope here a small one: in a tail that is deceptive.
     pub(super) relies_on_curvature: bool,
-    /// ‖D∇c_i(x)‖∞
+    /// ‖D∇c_i(x)‖∞ over the variables that can move
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
     pub(super) terms: Vec<f64>,
+    /// A search was ended by the deadline.
+    cut_short: AtomicBool,
     /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
     mean_slopes: OnceLock<Option<Vec<f64>>>,
 }
@@ -72,7 +75,7 @@ impl<'a> Point<'a> {
         let mut jacobian = vec![0.0; meta.jacobian.len()];
         origin.model.jacobian(x, &mut jacobian)?;
         let sizes = scales::variable_sizes(meta, x, &jacobian);
-        let sigma = largest(&gradient, &sizes);
+        let sigma = steepest(meta, &gradient, &sizes);
         let slopes = slopes(meta, &jacobian, &sizes);
         let terms = scales::row_terms(meta, x, &jacobian);
         Ok(Point {
@@ -90,8 +93,23 @@ impl<'a> Point<'a> {
             relies_on_curvature: false,
             slopes,
             terms,
+            cut_short: AtomicBool::new(false),
             mean_slopes: OnceLock::new(),
         })
+    }
+
+    /// Whether searches have to end, and so are cut short.
+    pub(super) fn is_over(&self) -> bool {
+        let is_over = self.origin.until.is_some_and(|until| Instant::now() >= until);
+        if is_over {
+            self.cut_short.store(true, Relaxed);
+        }
+        is_over
+    }
+
+    /// Whether a search was cut short.
+    pub(super) fn is_cut_short(&self) -> bool {
+        self.cut_short.load(Relaxed)
     }
 
     /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes
@@ -104,7 +122,8 @@ impl<'a> Point<'a> {
         let mut values = vec![0.0; meta.hessian.len()];
         self.origin.model.hessian(self.x, 1.0, &vec![0.0; meta.rows()], &mut values)?;
         let mut slopes = vec![0.0; self.x.len()];
-        for ((row, column), value) in meta.hessian.iter().zip(values) {
+        let moves = |&((row, column), _): &((usize, usize), f64)| !meta.is_fixed(row) && !meta.is_fixed(column);
+        for ((row, column), value) in meta.hessian.iter().zip(values).filter(moves) {
             let bend = (value * self.sizes[row] * self.sizes[column]).abs();
             slopes[row] += bend;
             if row != column {
@@ -282,15 +301,19 @@ pub(super) fn side(value: f64, lower: f64, upper: f64, multiplier: f64, touch: f
     }
 }
 
-fn largest(gradient: &[f64], d: &[f64]) -> f64 {
-    gradient.iter().zip(d).fold(0.0, |most, (g, d)| most.max((g * d).abs()))
+/// ‖D∇f‖∞ over the variables that can move. Where it overflows, the largest number there is: no slope passes beside that.
+fn steepest(meta: &Meta, gradient: &[f64], d: &[f64]) -> f64 {
+    let free = (0..d.len()).filter(|&j| !meta.is_fixed(j));
+    free.fold(0.0, |most: f64, j| most.max((gradient[j] * d[j]).abs())).min(f64::MAX)
 }
 
-/// ‖D∇c_i‖∞, row by row.
+/// ‖D∇c_i‖∞ over the variables that can move, row by row.
 fn slopes(meta: &Meta, jacobian: &[f64], d: &[f64]) -> Vec<f64> {
-    let pattern = &meta.jacobian;
-    let slope = |i| pattern.range(i).fold(0.0, |most: f64, at| most.max((jacobian[at] * d[pattern.columns[at] as usize]).abs()));
-    (0..meta.rows()).map(slope).collect()
+    let entry = |at: usize| {
+        let j = meta.jacobian.columns[at] as usize;
+        if meta.is_fixed(j) { 0.0 } else { (jacobian[at] * d[j]).abs() }
+    };
+    (0..meta.rows()).map(|i| meta.jacobian.range(i).map(entry).fold(0.0, f64::max)).collect()
 }
 
 fn check_point(origin: &Origin<'_>, x: &[f64]) -> Result<(), EvaluationError> {

@@ -1,6 +1,7 @@
 //! What the linear rows say of the box: bounds tightened row by row until one row cannot be met (feasibility-based bound
 //! tightening). A contradiction found so is a theorem, wherever solvers end.
 
+use super::row_range::{End, range};
 use crate::model::Model;
 
 /// Sweeps over all rows at the most.
@@ -68,25 +69,6 @@ enum Tightened {
     Impossible,
 }
 
-/// The finite part of an end of the row's range, the sizes it is summed from, and its open variables.
-#[derive(Default, Clone, Copy)]
-struct End {
-    sum: f64,
-    magnitude: f64,
-    open: usize,
-}
-
-impl End {
-    fn add(&mut self, term: f64) {
-        if term.is_finite() {
-            self.sum += term;
-            self.magnitude += term.abs();
-        } else {
-            self.open += 1;
-        }
-    }
-}
-
 fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64], ease: f64) -> Tightened {
     let (mut least, mut most) = (End::default(), End::default());
     for &(j, a) in &line.entries {
@@ -103,8 +85,8 @@ fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64], ease: f64) -> Tigh
     let mut changed = false;
     for &(j, a) in &line.entries {
         let (low, high) = range(a, lower[j], upper[j]);
-        let up = rest(least, low).map(|rest| (at_most - rest) / a).filter(|end| end.is_finite());
-        let down = rest(most, high).map(|rest| (at_least - rest) / a).filter(|end| end.is_finite());
+        let up = least.without(low).map(|rest| (at_most - rest) / a).filter(|end| end.is_finite());
+        let down = most.without(high).map(|rest| (at_least - rest) / a).filter(|end| end.is_finite());
         let (new_lower, new_upper) = if a > 0.0 { (down, up) } else { (up, down) };
         // Tiny gains would go on for ever.
         let worth = |gain: f64, size: f64| gain > 1e-3 * size;
@@ -120,19 +102,6 @@ fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64], ease: f64) -> Tigh
         }
     }
     Tightened::No
-}
-
-/// The end's sum without this variable's own term, where no other is open.
-fn rest(end: End, own: f64) -> Option<f64> {
-    match (own.is_finite(), end.open) {
-        (true, 0) => Some(end.sum - own),
-        (false, 1) => Some(end.sum),
-        _ => None,
-    }
-}
-
-fn range(a: f64, lower: f64, upper: f64) -> (f64, f64) {
-    if a > 0.0 { (a * lower, a * upper) } else { (a * upper, a * lower) }
 }
 
 #[cfg(test)]

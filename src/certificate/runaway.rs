@@ -16,7 +16,7 @@ const DIRECTIONS: usize = 12;
 const FOLLOWED: usize = 12;
 /// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
 /// matrices of order N takes N³ operations, and some thousand steps are taken.
-const LARGEST: usize = 120;
+pub(super) const LARGEST: usize = 120;
 /// Above this order, flat directions are those of single variables.
 const LARGEST_FOR_DIRECTIONS: usize = 2_000;
 
@@ -35,11 +35,10 @@ pub(super) fn variables(
     let choice = Choice::all(point, active);
     let directions = directions(point, hessian, &choice);
     let follows = choice.free.len() + choice.held.len() <= LARGEST;
-    let is_feasible =
-        |x: &[f64]| Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint);
-    let held = |rows: Vec<usize>| -> Vec<(usize, f64)> {
-        rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite()).collect()
+    let is_feasible = |x: &[f64]| {
+        !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
     };
+    let held = |rows: Vec<usize>| held_rows(point, rows);
     let runs_off = |free: &[usize], held: &[(usize, f64)]| {
         let site = Site {
             model: &point.origin.model,
@@ -67,6 +66,11 @@ pub(super) fn variables(
         Some(direction) => moving(point, &direction),
         None => towards_bounds(point, tolerances.constraint),
     }
+}
+
+/// Rows with the limits they are held to.
+pub(super) fn held_rows(point: &Point<'_>, rows: Vec<usize>) -> Vec<(usize, f64)> {
+    rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite()).collect()
 }
 
 /// The variables that take part in a direction.

@@ -2,14 +2,15 @@
 //! objective is about a point. Nothing here looks at a start the program has invented, nor at values or derivatives at a start.
 
 use super::point::{Origin, Point};
+use crate::math::split_mix::SplitMix;
 use crate::model::{Meta, Model};
 
 /// Relative steps to places about a point, the first at which the model has a value is taken.
 const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
 
 /// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
-/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (1 where none was), and of bounds on both
-/// sides. A size that is too small makes a test stricter, never laxer.
+/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound, or 1), and of
+/// bounds on both sides. A size that is too small makes a test stricter, never laxer.
 pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
     let known = known_sizes(meta, jacobian);
     let size = |(j, &x): (usize, &f64)| {
@@ -38,11 +39,30 @@ pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
     known
 }
 
-/// The magnitude of the start that was given, or 1; at the most that of the bounds.
+/// The magnitude of the start that was given, else of a bound, else 1; at the most that of bounds on both sides.
 fn declared_size(meta: &Meta, j: usize) -> f64 {
-    let given = meta.typical.get(j).copied().filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0);
-    let within = meta.lower[j].abs().max(meta.upper[j].abs());
-    if within > 0.0 { given.min(within) } else { given }
+    let is_size = |size: &f64| *size > 0.0 && size.is_finite();
+    let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
+    let given = meta.typical.get(j).copied().filter(is_size);
+    let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min)).unwrap_or(1.0);
+    let within = bounds[0].max(bounds[1]);
+    if within > 0.0 { size.min(within) } else { size }
+}
+
+/// Which variables have no size but the 1 that stands for want of anything better: none at the point, no start, no bound and no
+/// row's limit tells.
+pub(super) fn invented(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<bool> {
+    let is_number = |size: &f64| *size > 0.0 && size.is_finite();
+    let is_open = |j: usize| {
+        let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
+        x[j].abs() < 1.0 && !meta.typical.get(j).is_some_and(is_number) && !bounds.iter().any(is_number)
+    };
+    let mut invented: Vec<bool> = (0..x.len()).map(is_open).collect();
+    for i in (0..meta.rows()).filter(|&i| largest_limit(meta, i) > 0.0) {
+        let limits = meta.jacobian.range(i).filter(|&at| jacobian[at] != 0.0);
+        limits.for_each(|at| invented[meta.jacobian.columns[at] as usize] = false);
+    }
+    invented
 }
 
 /// The larger magnitude of row i's finite limits; 0 where it has none.
@@ -85,8 +105,8 @@ pub(super) fn slope_about(origin: &Origin<'_>, x: &[f64], sizes: &[f64]) -> f64 
     let slope = |way: f64| {
         let mut gradient = vec![0.0; x.len()];
         origin.model.gradient(&moved(origin.meta(), x, sizes, way), &mut gradient).ok()?;
-        let slopes = gradient.iter().zip(sizes).map(|(g, d)| (g * d).abs());
-        Some(slopes.fold(0.0, f64::max)).filter(|slope| slope.is_finite())
+        let free = (0..x.len()).filter(|&j| !origin.meta().is_fixed(j));
+        Some(free.map(|j| (gradient[j] * sizes[j]).abs()).fold(0.0, f64::max)).filter(|slope| slope.is_finite())
     };
     let less_steep = |step: f64| match (slope(step), slope(-step)) {
         (Some(a), Some(b)) => Some(a.min(b)),
@@ -112,10 +132,7 @@ pub(super) fn is_quadratic(point: &Point<'_>, j: usize, second: f64) -> bool {
 /// x + way·u∘sizes, u in [½, 1] without a pattern, so that sums and differences of variables move, too. A variable that a bound
 /// would stop goes the other way: where nothing moves, nothing is learnt.
 fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
-    let share = |j: usize| {
-        let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11;
-        0.5 + 0.5 * mixed as f64 / (1u64 << 53) as f64
-    };
+    let share = |j: usize| 0.5 + 0.5 * SplitMix::share(j as u64);
     let there = |j: usize| {
         let (step, lower, upper) = (way * share(j) * sizes[j].abs(), meta.lower[j], meta.upper[j]);
         let ahead = x[j] + step;

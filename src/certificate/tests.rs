@@ -345,3 +345,32 @@ fn too_many_weak_limits_to_look_at_are_no_proof() {
     let convex = certify(&horn, Class::Convex, &vec![0.0; count], None, Tolerances::default()).unwrap();
     assert!(convex.certified && convex.undecided.is_none());
 }
+
+#[test]
+fn a_search_cut_short_proves_nothing() {
+    let flat = Sample::new(&[1.0, 1.0], |x| x[1] * x[1]);
+    let judge = |until| Certifier::new(&flat, Class::Nonlinear, Tolerances::default()).with_deadline(until);
+    let late = judge(Some(Instant::now())).certify(&[1.0, 0.0], None).unwrap();
+    assert!(late.cut_short && !late.certified, "{late:?}");
+    assert!(judge(None).certify(&[1.0, 0.0], None).unwrap().certified);
+}
+
+#[test]
+fn a_slope_that_is_small_only_in_an_invented_unit_is_followed() {
+    // x is 1e-7 at the minimum, and nothing tells; there y is 4.
+    let model = Sample::new(&[0.0, 3.0], |x| {
+        let (a, b) = (x[0] * 1e7 - 1.0, x[1] - 3.0 - x[0] * 1e7);
+        a * a + b * b
+    });
+    let begin = judge(&model, &[0.0, 3.0]);
+    assert!(begin.led_on && !begin.certified);
+    assert!(begin.escape.is_some_and(|way| (way[1] - 10.0).abs() < 0.1));
+    assert!(judge(&model, &[1e-7, 4.0]).certified);
+}
+
+#[test]
+fn what_cannot_move_is_no_measure() {
+    let beside = |fixed: f64| Sample::new(&[1.0, fixed], |x| x[0] * x[0] + x[1] * 1e9).bound(1, fixed, fixed);
+    assert!(!judge(&beside(1.0), &[1e-3, 1.0]).certified);
+    assert!(judge(&beside(1.0), &[0.0, 1.0]).certified);
+}

@@ -57,7 +57,7 @@ impl Side {
     }
 }
 
-/// What a point is. All measures are relative to the problem's own scale; see SPEC §4.
+/// What a point is. All measures are relative to the problem's own scale, see docs/certificate.md.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Every test holds and no variable has run away.
@@ -68,7 +68,8 @@ pub struct Certificate {
     pub objective: f64,
     /// c(x), length m.
     pub row_values: Vec<f64>,
-    /// max violation_i/s_i over rows, over d_j for bounds.
+    /// max violation_i/s_i over rows, over d_j for bounds, less rounding; or the relative distance to a point without violation,
+    /// where one lies within the tolerance.
     pub primal_infeasibility: f64,
     /// max |∂L/∂x_j|·d_j/σ
     pub dual_infeasibility: f64,
@@ -83,7 +84,7 @@ pub struct Certificate {
     pub falls_further: bool,
     /// The rows are met only in the measure of variables that have grown large, and by no point beside this one.
     pub met_only_far_away: bool,
-    /// A direction along which it bends down or falls further, length n, in the problem's variables.
+    /// A direction along which it bends down or falls further, or Newton's steps lead on; length n, in the problem's variables.
     pub escape: Option<Vec<f64>>,
     /// y, length m: ≥ 0 where the upper side is active, ≤ 0 where the lower side is.
     pub row_multipliers: Vec<f64>,
@@ -99,9 +100,15 @@ pub struct Certificate {
     pub minimiser_may_not_be_unique: bool,
     /// Variables that have run away: a point that passes only because of them is no minimum.
     pub runaway: Vec<usize>,
-    /// d_j: max(|x_j|, |start_j|), or 1 where both are 0.
+    /// Newton's steps lead on, to another point: this one is stationary only in a measure that deceives.
+    pub led_on: bool,
+    /// The deadline ended a search for lower points before it was done: nothing is proved.
+    pub cut_short: bool,
+    /// d_j: |x_j|, or, where 0 is allowed and |x_j| is smaller, what is known of the variable's size otherwise
+    /// (docs/certificate.md, «Measures»).
     pub variable_scales: Vec<f64>,
-    /// σ: the objective's scale; 0 where every point is stationary.
+    /// σ: the objective's scale, its largest slope |∂f/∂x_j|·d_j or, where that is no measure, what its curvature makes of the
+    /// sizes; 0 where every point is stationary.
     pub sigma: f64,
     /// What failed, and at which variable or row, one plain sentence each; also remarks on a certified point.
     pub messages: Vec<String>,

@@ -8,6 +8,9 @@ use crate::model::Budget;
 /// Longest time that is taken literally; beyond it there is no deadline.
 const NO_DEADLINE: f64 = 3e9;
 
+/// What judging may take beyond the deadline.
+const GRACE: Duration = Duration::from_millis(300);
+
 /// The deadline of the whole command and Ctrl-C.
 #[derive(Clone, Copy)]
 pub(super) struct Clock<'a> {
@@ -28,6 +31,11 @@ impl<'a> Clock<'a> {
 
     pub(super) fn is_over(&self) -> bool {
         self.is_interrupted() || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+
+    /// When judging ends with what it has: a little after the deadline, so that the point a run has ended with is still judged.
+    pub(super) fn judging_ends(&self) -> Option<Instant> {
+        self.deadline.map(|deadline| deadline + GRACE)
     }
 
     /// A budget with this share of the time that is left, at most `most` seconds.

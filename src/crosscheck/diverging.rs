@@ -3,7 +3,7 @@
 mod paths;
 
 use super::Answer;
-use super::session::{Session as Referee, Solver as Contestant};
+use super::session::{Session, Solver};
 use crate::model::{Meta, Model, WithBounds};
 
 /// How the objective behaves along a feasible way.
@@ -39,43 +39,43 @@ const TRIED: usize = 200;
 const NOISE: f64 = 1e-6;
 
 /// Looks for a ray from the feasible points among `answers`, and, where a variable is open, from minima inside artificial boxes.
-pub(super) fn examine(referee: &Referee<'_>, contestants: &[Contestant<'_>], answers: &[Answer]) -> Option<Ray> {
-    let meta = referee.task.model.meta();
-    let answers = answers.iter().filter(|answer| referee.is_feasible(answer)).map(|answer| answer.solution.x.as_slice());
-    let points: Vec<&[f64]> = answers.chain([referee.task.start]).collect();
-    if let Some(ray) = points.iter().find_map(|x| paths::towards_edge(referee, x)) {
+pub(super) fn examine(session: &Session<'_>, solvers: &[Solver<'_>], answers: &[Answer]) -> Option<Ray> {
+    let meta = session.task.model.meta();
+    let answers = answers.iter().filter(|answer| answer.feasible).map(|answer| answer.solution.x.as_slice());
+    let points: Vec<&[f64]> = answers.chain([session.task.start]).collect();
+    if let Some(ray) = points.iter().find_map(|x| paths::towards_edge(session, x)) {
         return Some(ray);
     }
     if meta.lower.iter().chain(&meta.upper).all(|bound| bound.is_finite()) {
         return None;
     }
-    let along_way = points.iter().find_map(|x| follow(referee, x, &difference(x, &meta.start)));
+    let along_way = points.iter().find_map(|x| follow(session, x, &difference(x, &meta.start)));
     let gradient = |x: &[f64]| {
         let mut gradient = vec![0.0; x.len()];
-        referee.task.model.gradient(x, &mut gradient).ok().map(|_| gradient.iter().map(|g| -g).collect::<Vec<_>>())
+        session.task.model.gradient(x, &mut gradient).ok().map(|_| gradient.iter().map(|g| -g).collect::<Vec<_>>())
     };
     along_way
-        .or_else(|| points.iter().find_map(|x| follow(referee, x, &gradient(x)?)))
-        .or_else(|| points.iter().find_map(|x| axes(meta).find_map(|axis| follow(referee, x, &axis))))
-        .or_else(|| points.iter().find_map(|x| paths::power_curve(referee, x)))
-        .or_else(|| boxed(referee, contestants))
+        .or_else(|| points.iter().find_map(|x| follow(session, x, &gradient(x)?)))
+        .or_else(|| points.iter().find_map(|x| axes(meta).find_map(|axis| follow(session, x, &axis))))
+        .or_else(|| points.iter().find_map(|x| paths::power_curve(session, x)))
+        .or_else(|| boxed(session, solvers))
 }
 
 /// Whether what another backend found overrules certified points: it goes on falling below them, or, at the same value, certified
 /// points have gone as far in the variables that run off.
-pub(super) fn overruled(referee: &Referee<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
+pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
     let certificate = best.certificate.as_ref()?;
     let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
-    let start = &referee.task.model.meta().start;
+    let start = &session.task.model.meta().start;
     let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > AWAY * size(start[j]);
     let overrules = |answer: &Answer| {
         let (x, own) = (&answer.solution.x, answer.certificate.as_ref()?);
-        if !referee.is_feasible(answer) || own.certified || own.objective > certificate.objective + level {
+        if !answer.feasible || own.certified || own.objective > certificate.objective + level {
             return None;
         }
-        let straight = || follow(referee, x, &difference(x, start)).or_else(|| paths::power_curve(referee, x));
+        let straight = || follow(session, x, &difference(x, start)).or_else(|| paths::power_curve(session, x));
         if own.objective < certificate.objective - level {
-            return straight().or_else(|| paths::towards_edge(referee, x));
+            return straight().or_else(|| paths::towards_edge(session, x));
         }
         own.runaway.iter().any(is_far).then(straight).flatten()
     };
@@ -83,8 +83,8 @@ pub(super) fn overruled(referee: &Referee<'_>, answers: &[Answer], best: &Answer
 }
 
 /// Whether a point lies so far out that rounding may hide what violates the rows there.
-pub(super) fn is_far_out(referee: &Referee<'_>, x: &[f64]) -> bool {
-    let start = &referee.task.model.meta().start;
+pub(super) fn is_far_out(session: &Session<'_>, x: &[f64]) -> bool {
+    let start = &session.task.model.meta().start;
     x.iter().zip(start).any(|(x, &start)| (x - start).abs() > LOST * size(start))
 }
 
@@ -106,35 +106,35 @@ fn axes(meta: &Meta) -> impl Iterator<Item = Vec<f64>> + '_ {
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.
-fn boxed(referee: &Referee<'_>, contestants: &[Contestant<'_>]) -> Option<Ray> {
-    contestants.iter().find_map(|&contestant| {
-        let [near, far] = BOXES.map(|width| corner(referee, contestant, width));
+fn boxed(session: &Session<'_>, solvers: &[Solver<'_>]) -> Option<Ray> {
+    solvers.iter().find_map(|&solver| {
+        let [near, far] = BOXES.map(|width| corner(session, solver, width));
         let (near, far) = (near?, far?);
         let direction = difference(&far, &near);
-        follow(referee, &far, &direction).or_else(|| follow(referee, &near, &direction))
+        follow(session, &far, &direction).or_else(|| follow(session, &near, &direction))
     })
 }
 
-fn corner(referee: &Referee<'_>, contestant: Contestant<'_>, width: f64) -> Option<Vec<f64>> {
-    if referee.clock.is_over() {
+fn corner(session: &Session<'_>, solver: Solver<'_>, width: f64) -> Option<Vec<f64>> {
+    if session.clock.is_over() {
         return None;
     }
-    let meta = referee.task.model.meta();
+    let meta = session.task.model.meta();
     let reach = |start: &f64| width * start.abs().max(1.0);
     let lower = meta.lower.iter().zip(&meta.start).map(|(bound, start)| bound.max(start - reach(start))).collect();
     let upper = meta.upper.iter().zip(&meta.start).map(|(bound, start)| bound.min(start + reach(start))).collect();
-    let model = WithBounds::new(referee.task.model, lower, upper);
-    let solution = referee.solve_aside(contestant, &model, &model.meta().start, referee.clock.share(0.3, 20.0));
-    let feasible = referee.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= referee.tolerances.constraint);
+    let model = WithBounds::new(session.task.model, lower, upper);
+    let solution = session.solve_aside(solver, &model, &model.meta().start, session.clock.share(0.3, 20.0));
+    let feasible = session.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= session.tolerances.constraint);
     feasible.then_some(solution.x)
 }
 
 /// Follows `from + t·direction` over nine decades: feasible throughout and falling at every step, or no ray.
-fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray> {
-    let direction = cleaned(direction, from, referee.task.model.meta())?;
+fn follow(session: &Session<'_>, from: &[f64], direction: &[f64]) -> Option<Ray> {
+    let direction = cleaned(direction, from, session.task.model.meta())?;
     let value = |t: f64| {
         let x: Vec<f64> = from.iter().zip(&direction).map(|(x, v)| x + t * v).collect();
-        feasible_value(referee, &x)
+        feasible_value(session, &x)
     };
     let mut last = value(0.0)?;
     let mut falls = Vec::new();
@@ -147,9 +147,9 @@ fn follow(referee: &Referee<'_>, from: &[f64], direction: &[f64]) -> Option<Ray>
 }
 
 /// f(x), where x meets every limit.
-fn feasible_value(referee: &Referee<'_>, x: &[f64]) -> Option<f64> {
-    let feasible = referee.judge.primal_infeasibility(x)? <= referee.tolerances.constraint;
-    feasible.then(|| referee.task.model.objective(x).ok().filter(|f| f.is_finite())).flatten()
+fn feasible_value(session: &Session<'_>, x: &[f64]) -> Option<f64> {
+    let feasible = session.judge.primal_infeasibility(x)? <= session.tolerances.constraint;
+    feasible.then(|| session.task.model.objective(x).ok().filter(|f| f.is_finite())).flatten()
 }
 
 /// Of at least six falls in a row, none of which is a rise: growing or level is endless, shrinking settles.

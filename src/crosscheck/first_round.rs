@@ -11,13 +11,14 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
     let order = ledger.order();
     let mut found: Vec<Option<Answer>> = vec![None; order.len()];
     for (place, &k) in order.iter().enumerate() {
-        let share = match share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?)))) {
-            Some(share) => share,
-            None => turn(ledger, place, order.len(), k),
-        };
-        let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
+        let beside = share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?))));
+        let proved = beside.is_some();
+        let share = beside.unwrap_or_else(|| turn(ledger, place, order.len(), k));
+        let answer = match proved && share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
             true => {
-                ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into())
+                let is_proved = found.iter().flatten().any(|answer| answer.is_certified());
+                let known = if is_proved { "a minimum is certified" } else { "one evaluation costs it very much" };
+                ledger.not_run(k, format!("not run: {known}, and its share of the work is a few evaluations"))
             }
             false => {
                 let multipliers = ledger.session.task.start_multipliers;
@@ -33,23 +34,28 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
 fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share {
     let work = match (place, count) {
         (_, 1) => f64::INFINITY,
-        (0, _) => work::first_turn(ledger.session.cost(ledger.solvers[k])),
+        // Those before it may have been refused: then it is the first.
+        _ if place == 0 || ledger.least_first_work() == 0.0 => work::first_turn(ledger.session.cost(ledger.solvers[k])),
         _ => work::later_turn(ledger.least_first_work()),
     };
     Share { work, seconds: f64::INFINITY }
 }
 
-/// Those who gave way go on. Where nobody has met the rows, the elastic phase may know why: it comes first.
+/// Those who gave way go on, with what is left of their share beside a certified answer. Where nobody has met the rows, the elastic phase may know why: it comes first.
 pub(super) fn go_on(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
     let gave_way: Vec<usize> =
         ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
     let worth_it = answers.len() == gave_way.len() || answers.iter().any(|answer| answer.feasible);
     for k in gave_way.into_iter().filter(|_| worth_it) {
-        let share = share(ledger, answers.iter().enumerate());
-        if ledger.session.clock.is_over() || share.as_ref().is_some_and(|share| share.is_global(ledger)) {
+        let mut share = share(ledger, answers.iter().enumerate()).unwrap_or(Share::WHOLE);
+        if ledger.session.clock.is_over() {
             return;
         }
-        let share = share.unwrap_or(Share { work: f64::INFINITY, seconds: f64::INFINITY });
+        let cost = ledger.session.cost(ledger.solvers[k]);
+        share.work -= work::of(&answers[k], cost);
+        if share.work < work::FEWEST_EVALUATIONS * cost {
+            continue;
+        }
         let start = answers[k].solution.x.clone();
         let next = ledger.run_within(k, &start, (share.work, share.seconds), None);
         restarts::keep_better(ledger, &mut answers[k], next, "went on after the others");
@@ -63,9 +69,7 @@ struct Share {
 }
 
 impl Share {
-    fn is_global(&self, ledger: &Ledger<'_, '_>) -> bool {
-        ledger.session.task.class.is_global()
-    }
+    const WHOLE: Share = Share { work: f64::INFINITY, seconds: f64::INFINITY };
 }
 
 /// What is left to the others beside a certified answer.

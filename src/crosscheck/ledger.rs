@@ -57,17 +57,7 @@ impl<'r, 'o> Ledger<'r, 'o> {
     /// An answer of a backend that is not run, and why.
     pub(super) fn not_run(&self, k: usize, why: String) -> Answer {
         let (session, solver) = (self.session, self.solvers[k]);
-        let solution = refused(solver.algorithm, session.task.start, why);
-        Answer {
-            backend: solver.backend.name(),
-            solution,
-            objective: None,
-            certificate: None,
-            feasible: false,
-            attempt: 0,
-            gave_way: false,
-            remarks: Vec::new(),
-        }
+        Answer::unjudged(solver.backend.name(), refused(solver.algorithm, session.task.start, why))
     }
 
     /// What the first run of backend k cost.

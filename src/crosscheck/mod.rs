@@ -257,6 +257,6 @@ fn settling(session: &Session<'_>, answers: &[Answer], ray: Option<&Ray>) -> Opt
         return None;
     }
     let runs_off = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|own| ray.is_some() || !own.runaway.is_empty());
-    let feasible = answers.iter().filter(|answer| session.is_feasible(answer)).filter(runs_off);
+    let feasible = answers.iter().filter(|answer| answer.feasible).filter(runs_off);
     feasible.filter_map(|answer| answer.objective).reduce(f64::min)
 }

@@ -1,7 +1,7 @@
 //! Repeatable random numbers and starting points.
 
 use crate::math::split_mix::SplitMix;
-use crate::model::Meta;
+use crate::model::{Meta, domain};
 
 /// A seeded stream of numbers and points.
 pub(super) struct Seeds(SplitMix);
@@ -33,19 +33,9 @@ impl Seeds {
     }
 }
 
-/// The middle of the bounds; where one is open, off the start by an amount that differs from variable to variable.
+/// The middle of the bounds; where one is open, off the start.
 pub(super) fn middle(meta: &Meta) -> Vec<f64> {
-    let one = |j: usize| {
-        let (lower, upper, start) = (meta.lower[j], meta.upper[j], meta.start[j]);
-        let distance = (1.0 + start.abs()) * (1.0 + 0.1 * (j % 7) as f64);
-        match (lower.is_finite(), upper.is_finite()) {
-            (true, true) => 0.5 * (lower + upper),
-            (true, false) => start.max(lower + distance),
-            (false, true) => start.min(upper - distance),
-            (false, false) => start + distance,
-        }
-    };
-    (0..meta.variables()).map(one).collect()
+    (0..meta.variables()).map(|j| domain::middle(meta.start[j], meta.lower[j], meta.upper[j], j)).collect()
 }
 
 #[cfg(test)]

@@ -41,14 +41,10 @@ impl<'a> Session<'a> {
     pub(super) fn new(task: &'a Task<'a>) -> Self {
         let settings = task.settings;
         let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
-        let strict = strict(tolerances, SPARE);
-        Session {
-            task,
-            judge: Certifier::new(task.model, task.class, tolerances),
-            strict: Certifier::new(task.model, task.class, strict),
-            tolerances,
-            clock: Clock::new(settings.max_seconds, settings.max_evaluations, task.interrupt),
-        }
+        let clock = Clock::new(settings.max_seconds, settings.max_evaluations, task.interrupt);
+        let judge = |tolerances| Certifier::new(task.model, task.class, tolerances).with_deadline(clock.judging_ends());
+        let strict = judge(strict(tolerances, SPARE));
+        Session { task, judge: judge(tolerances), strict, tolerances, clock }
     }
 
     /// The model backends work on: the substituted one, where there is one (there, geometric programs are convex).
@@ -58,7 +54,10 @@ impl<'a> Session<'a> {
 
     /// The other variables a backend solves in: states beside the design only where it takes them.
     fn substitution(&self, solver: Solver<'_>) -> Option<&'a dyn Substitution> {
-        let takes = |other: &&'a dyn Substitution| other.model().meta().states.is_none() || solver.backend.takes_states();
+        let states = |model: &dyn Model| model.meta().states.is_some();
+        let own = states(self.task.model);
+        let takes =
+            |other: &&'a dyn Substitution| states(other.model()) == own || states(other.model()) == solver.backend.takes_states();
         self.task.substitution.filter(takes)
     }
 
@@ -156,14 +155,16 @@ impl<'a> Session<'a> {
 
     /// Solves a helper model (elastic, boxed) that nobody watches, with a stop test of its own.
     pub(super) fn solve_aside(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64], budget: Budget<'_>) -> Solution {
-        let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE));
+        let own =
+            Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE)).with_deadline(self.clock.judging_ends());
         let stop = |x: &[f64]| own.accepts(x);
         self.solve(solver, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
     }
 
     /// Whether a point of a part of the model passes by itself.
     fn accepts_part(&self, part: &dyn Model, x: &[f64]) -> bool {
-        Certifier::new(part, Class::Nonlinear, strict(self.tolerances, PART_SPARE)).accepts(x)
+        let judge = Certifier::new(part, Class::Nonlinear, strict(self.tolerances, PART_SPARE));
+        judge.with_deadline(self.clock.judging_ends()).accepts(x)
     }
 
     fn judged(&self, solver: Solver<'_>, mut solution: Solution) -> Answer {
@@ -173,16 +174,7 @@ impl<'a> Session<'a> {
             solution.message = format!("its share of the work ended before it did ({} evaluations)", solution.evaluations);
         }
         let attempt = usize::from(solution.termination != Termination::Refused);
-        let mut answer = Answer {
-            backend: solver.backend.name(),
-            solution,
-            objective: None,
-            certificate: None,
-            feasible: false,
-            attempt,
-            gave_way,
-            remarks: Vec::new(),
-        };
+        let mut answer = Answer { attempt, gave_way, ..Answer::unjudged(solver.backend.name(), solution) };
         self.judge_again(&mut answer);
         answer
     }
@@ -227,11 +219,6 @@ impl<'a> Session<'a> {
         self.clock.is_over()
             || solution.evaluations >= settings.max_evaluations
             || solution.iterations.is_some_and(|iterations| iterations >= settings.max_iterations)
-    }
-
-    /// Whether an answer meets all rows and bounds.
-    pub(super) fn is_feasible(&self, answer: &Answer) -> bool {
-        answer.feasible
     }
 
     /// Certified before feasible before anything else; then the lower objective, or the smaller violation.

@@ -86,6 +86,20 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// A backend's solution, not judged yet.
+    pub(super) fn unjudged(backend: &'static str, solution: Solution) -> Answer {
+        Answer {
+            backend,
+            solution,
+            objective: None,
+            certificate: None,
+            feasible: false,
+            attempt: 0,
+            gave_way: false,
+            remarks: Vec::new(),
+        }
+    }
+
     /// Whether its point passed the certificate.
     pub fn is_certified(&self) -> bool {
         self.certificate.as_ref().is_some_and(|certificate| certificate.certified)
@@ -204,7 +218,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The exit code of `solve` (SPEC §2).
+    /// The exit code of `solve` (docs/verdict.md).
     pub fn exit_code(&self) -> u8 {
         match self.status {
             Status::Certified if !self.better_point_elsewhere => 0,

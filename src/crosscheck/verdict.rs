@@ -47,7 +47,7 @@ pub(super) fn certified(session: &Session<'_>, answers: Vec<Answer>) -> Outcome 
 pub(super) fn diverging(session: &Session<'_>, answers: Vec<Answer>, ray: Ray) -> Outcome {
     let status = if ray.fall == Fall::Endless { Status::Unbounded } else { Status::NotAttained };
     let mut outcome = standing(session, answers, status);
-    if !outcome.best.is_some_and(|best| session.is_feasible(&outcome.answers[best])) {
+    if !outcome.best.is_some_and(|best| outcome.answers[best].feasible) {
         outcome.objective = session.task.model.objective(&ray.from).ok();
         outcome.certificate = session.judge.certify(&ray.from, None).ok();
         outcome.x = ray.from;

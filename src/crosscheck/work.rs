@@ -19,9 +19,10 @@ pub(super) fn cross_check(proof: f64) -> f64 {
     proof.max(0.2 * PER_SECOND)
 }
 
-/// What is left to the others once a local minimum is certified: they may know a better one.
-pub(super) fn after_certified(work: f64) -> f64 {
-    (2.0 * work).max(5.0 * PER_SECOND)
+/// What is left to the others once a local minimum is certified: they may know a better one. Twice as much as the proof took, at
+/// least 2 s worth.
+pub(super) fn after_certified(proof: f64) -> f64 {
+    (2.0 * proof).max(2.0 * PER_SECOND)
 }
 
 /// What the cheapest backend may spend before it gives way to the next one: ten seconds' worth, and two thousand evaluations at

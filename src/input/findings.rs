@@ -88,7 +88,7 @@ impl Findings {
             Place::File { start, end } => source.mistake(start as usize..end as usize, message, help),
             Place::Argument { number, start, end } => {
                 let text = arguments.get(number as usize).cloned().unwrap_or_default();
-                let argument = Source { name: "--set".into(), text };
+                let argument = Source::new("--set", text);
                 argument.mistake(start as usize..end as usize, message, help)
             }
             Place::Row { table, line, field } => {

@@ -32,7 +32,7 @@ pub(super) fn load(path: &Path) -> Result<(Source, Vec<u8>), Mistakes> {
     if text.trim().is_empty() {
         return Err(whole(format!("{name} is empty"), "`ribopt new` prints an example to start from"));
     }
-    Ok((Source { name, text }, bytes))
+    Ok((Source::new(name, text), bytes))
 }
 
 /// Why the system would not open a file.
@@ -58,7 +58,7 @@ fn refuse(name: &str, message: String, help: &str) -> Mistakes {
 
 /// The place of the first byte that is no UTF-8.
 fn not_text(name: &str, bytes: &[u8], valid: usize) -> Mistakes {
-    let source = Source { name: name.to_owned(), text: String::from_utf8_lossy(bytes).into_owned() };
+    let source = Source::new(name, String::from_utf8_lossy(bytes).into_owned());
     let message = format!("{name} is not UTF-8 text: byte {:#04x} at position {valid}", bytes.get(valid).unwrap_or(&0));
     let help = Some("save the file as UTF-8".to_owned());
     Mistakes { list: vec![source.mistake(valid..valid + 1, message, help)], more: 0 }

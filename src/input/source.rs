@@ -1,6 +1,7 @@
 //! The text of a file, and where in it something stands.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::mistake::Mistake;
 
@@ -31,9 +32,16 @@ impl Place {
 pub(super) struct Source {
     pub name: String,
     pub text: String,
+    /// Where its lines end, once asked for.
+    ends: OnceLock<Vec<usize>>,
 }
 
 impl Source {
+    /// A text under a name.
+    pub fn new(name: impl Into<String>, text: String) -> Source {
+        Source { name: name.into(), text, ends: OnceLock::new() }
+    }
+
     /// A mistake at a range of bytes; the range is cut at the end of its first line.
     pub fn mistake(&self, range: Range<usize>, message: String, help: Option<String>) -> Mistake {
         let start = self.boundary(range.start);
@@ -56,7 +64,9 @@ impl Source {
 
     /// The line a byte stands on, counted from 1.
     pub fn line(&self, byte: usize) -> usize {
-        self.text.as_bytes().iter().take(byte).filter(|&&b| b == b'\n').count() + 1
+        let ends =
+            self.ends.get_or_init(|| self.text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(at, _)| at).collect());
+        ends.partition_point(|&end| end < byte) + 1
     }
 
     /// The nearest character boundary at or before a byte.

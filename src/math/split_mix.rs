@@ -10,6 +10,17 @@ impl SplitMix {
         SplitMix(seed)
     }
 
+    /// A fixed number in [0, 1) for every k: without a pattern, the same on every machine.
+    pub fn share(k: u64) -> f64 {
+        SplitMix::new(k).uniform()
+    }
+
+    /// The same of either sign, and at least ½ in magnitude.
+    pub fn signed(k: u64) -> f64 {
+        let share = SplitMix::share(k);
+        if share < 0.5 { -0.5 - share } else { share }
+    }
+
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);

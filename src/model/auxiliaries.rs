@@ -3,12 +3,12 @@
 use super::Model;
 use crate::problem::kinks::Auxiliary;
 
-/// Gives the last variables of x, the auxiliaries, the values that follow from the others: each is the largest (or smallest) of the pieces
-/// that its rows bound it by. `first` is the first of these rows.
-pub(super) fn complete(model: &dyn Model, auxiliaries: &[Auxiliary], first: usize, x: &mut [f64]) {
-    let Some(begin) = x.len().checked_sub(auxiliaries.len()).filter(|_| !auxiliaries.is_empty()) else { return };
-    let kept = x[begin..].to_vec();
-    x[begin..].fill(0.0);
+/// Gives the auxiliaries among the variables, those that end before `end`, the values that follow from the others: each is the largest
+/// (or smallest) of the pieces that its rows bound it by. `first` is the first of these rows.
+pub(super) fn complete(model: &dyn Model, auxiliaries: &[Auxiliary], first: usize, end: usize, x: &mut [f64]) {
+    let Some(begin) = end.checked_sub(auxiliaries.len()).filter(|_| !auxiliaries.is_empty() && end <= x.len()) else { return };
+    let kept = x[begin..end].to_vec();
+    x[begin..end].fill(0.0);
     let levels = auxiliaries.iter().map(|auxiliary| auxiliary.level).max().unwrap_or(0);
     let mut values = vec![0.0; model.meta().rows()];
     for level in 0..=levels {

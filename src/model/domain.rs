@@ -74,6 +74,18 @@ pub fn values(model: &dyn Model, x: &[f64]) -> Result<(), EvaluationError> {
     Err(EvaluationError::Invalid { term: "a derivative".into(), cause: "it is no number".into() })
 }
 
+/// A place of variable j well inside its bounds; where one is open, off the start by an amount that differs from variable to
+/// variable.
+pub fn middle(start: f64, lower: f64, upper: f64, j: usize) -> f64 {
+    let distance = (1.0 + start.abs()) * (1.0 + 0.1 * (j % 7) as f64);
+    match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => 0.5 * (lower + upper),
+        (true, false) => start.max(lower + distance),
+        (false, true) => start.min(upper - distance),
+        (false, false) => start + distance,
+    }
+}
+
 /// The k-th direction: all upwards, all downwards, then single variables and random ones in turn.
 fn direction(k: usize, random: &mut SplitMix) -> impl FnMut(usize, usize) -> f64 {
     let mut own = SplitMix::new((random.uniform() * 1e15) as u64);

@@ -5,10 +5,12 @@
 mod equations;
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use super::views::mapped::{Mapped, Maps, Rows};
-use super::{AssemblyError, EvaluationError, Meta, Model, Own, RibModel, assemble};
+use super::views::composed::{Composed, Links};
+use super::views::mapped::{Mapped, Maps};
+use super::views::reduced::{Factors, Stiffness};
+use super::{AssemblyError, EvaluationError, Meta, Model, NameTable, Names, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
 use crate::problem::structure::{Action, DIRECTIONS, Structure};
@@ -37,13 +39,20 @@ pub trait WithStates: Model {
 }
 
 /// A structure in design variables and displacements.
+///
+/// What the certificate finds at a point whose displacements are those of its design holds for the reduced model, too: multipliers of the
+/// state equations are the adjoints, for which the Lagrangian is stationary in the states; and as the block [L_uu Kᵀ; K 0] has as many
+/// positive as negative eigenvalues whatever L_uu is, the inertia of the lifted system is that of the reduced one and of these
+/// (Haynsworth 1968).
 pub struct Lifted {
-    model: Mapped<RibModel>,
+    model: Composed<Mapped<RibModel>, RibModel>,
     problem: Arc<Problem>,
     states: States,
     /// Node and direction of each state of a block.
     directions: Vec<(u32, u8)>,
-    row_names: usize,
+    stiffness: Stiffness,
+    /// Factors at the design analysed last: their analysis of the pattern serves again.
+    latest: Mutex<Option<Factors>>,
 }
 
 impl Lifted {
@@ -61,21 +70,45 @@ impl Lifted {
             .flat_map(|node| (0..6u8).map(move |direction| (node, direction)))
             .filter(|&(node, direction)| statics.is_free(node, direction.into()))
             .collect();
-        let inner = assemble(&Arc::new(equations::inner_problem(problem, structure, statics)))?;
-        let first_row = inner.rows_before(problem.constraints.len());
+        let forces = assemble(&Arc::new(equations::forces_problem(problem, structure, statics)))?;
+        let rows = assemble(&Arc::new(equations::rows_problem(problem, structure, statics)))?;
+        let first_row = rows.meta().rows();
         let states = States { first_variable: own, first_row, block: directions.len(), blocks: structure.cases.len() };
         let numbering = Numbering { states, of: directions.iter().zip(0..).map(|(&at, number)| (at, number)).collect() };
         let mut maps = Maps::default();
-        inputs(structure, statics, &numbering, &mut maps);
-        let limits = equations::outputs(&inner, structure, statics, &numbering, &mut maps);
-        let meta = outer_meta(inner.meta(), states, &limits);
-        Ok(Lifted {
-            model: Mapped::new(inner, maps, meta),
-            problem: Arc::clone(problem),
-            states,
-            directions,
-            row_names: first_row,
-        })
+        deformations(structure, statics, &numbering, &mut maps);
+        let (known, limits) = equations::outputs(&forces, structure, statics, &numbering, &mut maps);
+        let names =
+            LiftedNames { own: rows.meta().names.clone(), problem: Arc::clone(problem), states, directions: directions.clone() };
+        let meta = Meta { names: NameTable::new(names), ..outer_meta(rows.meta(), states, &limits) };
+        let of_forces =
+            Meta { row_lower: vec![0.0; maps.outputs.len()], row_upper: vec![0.0; maps.outputs.len()], ..meta.clone() };
+        let own_rows = known.len();
+        let links = links(structure, statics, &numbering, &known);
+        let model = Composed::new(Mapped::new(forces, maps, of_forces), rows, links, own_rows, meta);
+        let stiffness = Stiffness::of(model.meta(), states);
+        let problem = Arc::clone(problem);
+        let mut lifted = Lifted { model, problem, states, directions, stiffness, latest: Mutex::default() };
+        lifted.start_analysed();
+        Ok(lifted)
+    }
+
+    /// Starts at the analysed start of the design. A case's largest displacement there, and its largest rotation, are the magnitudes of all.
+    fn start_analysed(&mut self) {
+        let mut start = self.meta().start.clone();
+        self.complete(&mut start);
+        let mut typical = self.meta().typical.clone();
+        let n = self.states.first_variable;
+        for case in 0..self.states.blocks {
+            let of_case = n + case * self.states.block;
+            for turns in [false, true] {
+                let alike = |state: &usize| (self.direction(*state).1 >= 3) == turns;
+                let chosen = || (0..self.states.block).filter(alike).map(|state| of_case + state);
+                let largest = chosen().map(|at| start[at].abs()).fold(0.0, f64::max);
+                chosen().for_each(|at| typical[at] = largest);
+            }
+        }
+        self.model.start_at(start, typical);
     }
 
     /// Its states.
@@ -94,16 +127,54 @@ impl Lifted {
         (node, direction.into())
     }
 
-    /// The assembled elements.
+    /// The model of the user's rows, over design variables and inputs.
     pub fn inner(&self) -> &RibModel {
-        self.model.inner()
+        self.model.second()
     }
+}
 
-    fn state_name(&self, at: usize) -> String {
+/// The user's names, then those of the states and their equations.
+struct LiftedNames {
+    own: NameTable,
+    problem: Arc<Problem>,
+    states: States,
+    directions: Vec<(u32, u8)>,
+}
+
+impl LiftedNames {
+    fn state(&self, at: usize) -> String {
         let structure = prepared(&self.problem).0;
         let (node, direction) = self.directions[at % self.states.block];
         let case = &structure.cases[at / self.states.block];
         format!("{case}, {}, {}", &structure.nodes.names[node as usize], DIRECTIONS[usize::from(direction)])
+    }
+}
+
+impl Names for LiftedNames {
+    fn variable(&self, j: usize) -> String {
+        match j.checked_sub(self.states.first_variable) {
+            None => self.problem.variable_name(j),
+            Some(at) => format!("displacement[{}]", self.state(at)),
+        }
+    }
+
+    fn row(&self, i: usize) -> String {
+        match i.checked_sub(self.states.first_row) {
+            None => self.own.row(i),
+            Some(at) => format!("equilibrium[{}]", self.state(at)),
+        }
+    }
+
+    fn objective(&self) -> String {
+        self.own.objective()
+    }
+
+    fn rib_volume(&self, rib: usize) -> String {
+        self.own.rib_volume(rib)
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        if i < self.states.first_row { self.own.row_place(i) } else { None }
     }
 }
 
@@ -133,42 +204,87 @@ impl Numbering {
     }
 }
 
-/// B and b: design variables as they are, then for every case and combination what its inputs are made of.
-fn inputs(structure: &Structure, statics: &Statics, numbering: &Numbering, maps: &mut Maps) {
+/// What an input is made of where it is linear in the displacements: entries and constant.
+struct Linear<'a> {
+    structure: &'a Structure,
+    statics: &'a Statics,
+    numbering: &'a Numbering,
+    settled: HashMap<(u32, u32, u8), f64>,
+}
+
+impl Linear<'_> {
+    fn of(&self, factors: &[(u32, f64)], input: Input) -> (Vec<(u32, f64)>, f64) {
+        let (mut entries, mut constant): (Vec<(u32, f64)>, f64) = (Vec::new(), 0.0);
+        let mut add = |node: u32, direction: usize, coefficient: f64| {
+            for &(case, factor) in factors {
+                match self.numbering.variable(case, node, direction) {
+                    Some(variable) => entries.push((variable, factor * coefficient)),
+                    None => {
+                        let held = self.settled.get(&(case, node, direction as u8)).copied().unwrap_or(0.0);
+                        constant += factor * coefficient * held;
+                    }
+                }
+            }
+        };
+        match input {
+            Input::Displacement(node, direction) => add(node, direction, 1.0),
+            Input::Deformation(member, component) => {
+                let declared = &self.structure.members[member as usize];
+                let row = &self.statics.members[member as usize].rows[component];
+                for (at, &coefficient) in row.iter().enumerate().filter(|(_, coefficient)| **coefficient != 0.0) {
+                    add(if at < 6 { declared.start } else { declared.end }, at % 6, coefficient);
+                }
+            }
+        }
+        (entries, constant)
+    }
+}
+
+/// B and b of the forces: design variables as they are, then what members deform by in every case.
+fn deformations(structure: &Structure, statics: &Statics, numbering: &Numbering, maps: &mut Maps) {
     for j in 0..numbering.states.first_variable as u32 {
         maps.inputs.push([(j, 1.0)]);
         maps.constants.push(0.0);
     }
-    let settled = settlements(structure);
-    for set in 0..structure.load_sets() as u32 {
-        let factors = structure.factors(set);
+    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
+    for case in 0..structure.cases.len() as u32 {
         for at in 0..statics.inputs {
-            let (mut entries, mut constant): (Vec<(u32, f64)>, f64) = (Vec::new(), 0.0);
-            let mut add = |node: u32, direction: usize, coefficient: f64| {
-                for &(case, factor) in &factors {
-                    match numbering.variable(case, node, direction) {
-                        Some(variable) => entries.push((variable, factor * coefficient)),
-                        None => {
-                            let held = settled.get(&(case, node, direction as u8)).copied().unwrap_or(0.0);
-                            constant += factor * coefficient * held;
-                        }
-                    }
-                }
-            };
-            match statics.input(at) {
-                Input::Displacement(node, direction) => add(node, direction, 1.0),
-                Input::Deformation(member, component) => {
-                    let declared = &structure.members[member as usize];
-                    let row = &statics.members[member as usize].rows[component];
-                    for (at, &coefficient) in row.iter().enumerate().filter(|(_, coefficient)| **coefficient != 0.0) {
-                        add(if at < 6 { declared.start } else { declared.end }, at % 6, coefficient);
-                    }
-                }
-            }
+            let (entries, constant) = linear.of(&[(case, 1.0)], statics.input(at));
             maps.inputs.push(entries);
             maps.constants.push(constant);
         }
     }
+}
+
+/// The first row of the forces that is a state equation is their number; before it stand the basic forces of members known by them.
+type Known = HashMap<(u32, u32, u8), u32>;
+
+/// What the user's rows look at, in every case and combination: basic forces, deformations of bars, displacements.
+fn links(structure: &Structure, statics: &Statics, numbering: &Numbering, known: &Known) -> Links {
+    let mut links = Links::default();
+    for j in 0..numbering.states.first_variable as u32 {
+        links.variables.push([(j, 1.0)]);
+        links.rows.push([]);
+        links.constants.push(0.0);
+    }
+    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
+    for set in 0..structure.load_sets() as u32 {
+        let factors = structure.factors(set);
+        for at in 0..statics.inputs {
+            let input = statics.input(at);
+            let force = |&(case, factor): &(u32, f64)| match input {
+                Input::Deformation(member, component) => Some((*known.get(&(case, member, component as u8))?, factor)),
+                Input::Displacement(..) => None,
+            };
+            let forces: Vec<(u32, f64)> = factors.iter().filter_map(force).collect();
+            let by_forces = matches!(input, Input::Deformation(member, _) if statics.members[member as usize].by_forces);
+            let (entries, constant) = if by_forces { (Vec::new(), 0.0) } else { linear.of(&factors, input) };
+            links.variables.push(entries);
+            links.rows.push(forces);
+            links.constants.push(constant);
+        }
+    }
+    links
 }
 
 /// Prescribed displacements by case, node and direction.
@@ -238,27 +354,22 @@ impl Model for Lifted {
         let auxiliaries = &self.problem.auxiliaries;
         let rows = match auxiliaries.first() {
             Some(first) => self.inner().rows_before(first.constraints.start),
-            None => self.row_names,
+            None => self.states.first_row,
         };
         Own { variables: self.states.first_variable - auxiliaries.len(), rows }
     }
 
-    fn variable_name(&self, j: usize) -> String {
-        match j.checked_sub(self.states.first_variable) {
-            None => self.problem.variable_name(j),
-            Some(at) => format!("displacement[{}]", self.state_name(at)),
+    /// States are what the analysis of the design says, whatever stood in their place.
+    fn complete(&self, x: &mut [f64]) {
+        let n = self.states.first_variable;
+        let earlier = self.latest.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Ok((z, factors)) = self.stiffness.solve_states(self, &x[..n], earlier) {
+            x[n..].copy_from_slice(&z[n..]);
+            *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(factors);
         }
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        match i.checked_sub(self.states.first_row) {
-            None => self.inner().row_name(i),
-            Some(at) => format!("equilibrium[{}]", self.state_name(at)),
+        if let Some((list, first)) = self.auxiliaries() {
+            auxiliaries::complete(self, list, first, n, x);
         }
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        if i < self.states.first_row { self.inner().row_place(i) } else { None }
     }
 }
 
@@ -279,9 +390,4 @@ fn with_inputs(problem: &mut Problem, inputs: usize) {
         let length = column.len() + inputs;
         column.resize(length, value);
     }
-}
-
-/// Rows that pass on what they are.
-fn identity(rows: &mut Rows, row: u32) {
-    rows.push([(row, 1.0)]);
 }

@@ -23,6 +23,35 @@ impl Assembled {
         }
     }
 
+    /// The model that points are judged on: with its states beside the design where dense derivatives of the design alone would be
+    /// larger than [`LARGEST_DENSE`]. Both say the same of a point, see [`Lifted`].
+    pub fn judge(&self) -> &dyn Model {
+        match self {
+            Assembled::Structure(model) if is_large(model.lifted()) => model.lifted(),
+            other => other.model(),
+        }
+    }
+
+    /// The same in the other variables, for backends that want these.
+    pub fn other_form(&self) -> Option<Box<dyn Substitution + Send>> {
+        match self {
+            Assembled::Ribs(_) => None,
+            Assembled::Structure(model) if is_large(model.lifted()) => {
+                let fits = entries(model.lifted()) <= LARGEST_REDUCED;
+                fits.then(|| Box::new(DesignAlone(Arc::clone(model))) as Box<dyn Substitution + Send>)
+            }
+            Assembled::Structure(model) => Some(Box::new(WithDisplacements(Arc::clone(model)))),
+        }
+    }
+
+    /// The structure's analysis, where there is any.
+    pub fn analysis(&self) -> Option<&Reduced<Lifted>> {
+        match self {
+            Assembled::Structure(model) => Some(model),
+            Assembled::Ribs(_) => None,
+        }
+    }
+
     /// The declaration.
     pub fn problem(&self) -> &Arc<Problem> {
         match self {
@@ -30,6 +59,22 @@ impl Assembled {
             Assembled::Structure(model) => model.lifted().problem(),
         }
     }
+}
+
+/// Entries of the reduced Jacobian up to which points are judged on the reduced model: its matrices are dense, and each costs as many solves
+/// as there are design variables.
+const LARGEST_DENSE: usize = 5_000;
+
+/// Entries up to which the reduced model has derivatives at all: 80 MB.
+const LARGEST_REDUCED: usize = 10_000_000;
+
+fn entries(lifted: &Lifted) -> usize {
+    let states = lifted.states();
+    states.first_variable.saturating_mul(states.first_row.max(states.first_variable))
+}
+
+fn is_large(lifted: &Lifted) -> bool {
+    entries(lifted) > LARGEST_DENSE
 }
 
 /// Assembles a problem: reduced to its design variables where it asks for responses of a structure.
@@ -42,21 +87,15 @@ pub fn assemble_any(problem: &Arc<Problem>) -> Result<Assembled, AssemblyError> 
     }
     let lifted = Lifted::of(problem)?;
     // A problem that analyses has states, if only none that are free.
-    match Reduced::of(lifted) {
+    let derivatives = entries(&lifted) <= LARGEST_REDUCED;
+    match Reduced::of(lifted, derivatives) {
         Some(reduced) => Ok(Assembled::Structure(Arc::new(reduced))),
         None => Ok(Assembled::Ribs(Arc::new(assemble(problem)?))),
     }
 }
 
 /// The lifted model as other variables of the reduced one: the analysed displacements beside the design.
-pub struct WithDisplacements(Arc<Reduced<Lifted>>);
-
-impl WithDisplacements {
-    /// The lifted form of a reduced model.
-    pub fn of(reduced: Arc<Reduced<Lifted>>) -> Self {
-        WithDisplacements(reduced)
-    }
-}
+struct WithDisplacements(Arc<Reduced<Lifted>>);
 
 impl Substitution for WithDisplacements {
     fn model(&self) -> &dyn Model {
@@ -77,5 +116,25 @@ impl Substitution for WithDisplacements {
 
     fn outward_multipliers(&self, y: &[f64]) -> Option<Vec<f64>> {
         Some(y.get(..self.0.meta().rows())?.to_vec())
+    }
+}
+
+/// The reduced model as other variables of the lifted one: the design alone.
+struct DesignAlone(Arc<Reduced<Lifted>>);
+
+impl Substitution for DesignAlone {
+    fn model(&self) -> &dyn Model {
+        self.0.as_ref()
+    }
+
+    fn inward(&self, z: &[f64]) -> Vec<f64> {
+        z[..self.0.meta().variables().min(z.len())].to_vec()
+    }
+
+    fn outward(&self, x: &[f64]) -> Vec<f64> {
+        let mut z = x.to_vec();
+        z.resize(self.0.lifted().meta().variables(), 0.0);
+        self.0.lifted().complete(&mut z);
+        z
     }
 }

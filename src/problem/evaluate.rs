@@ -11,7 +11,7 @@ use crate::expression::operators::{Binary, Fold};
 use crate::sections::{self, Given};
 
 /// The item whose own names hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Item {
     None,
@@ -79,7 +79,9 @@ impl<'a> Evaluation<'a> {
             Formula::Variable(j) => self.variable(*j),
             Formula::Definition(d) => self.definition(*d),
             Formula::SectionProperty(s, property) => self.property(*s, &property.0),
-            Formula::RibVolume(_) | Formula::Volume(_) | Formula::OwnVolume | Formula::Response(_) => None,
+            Formula::RibVolume(_) | Formula::Volume(_) | Formula::OwnVolume | Formula::Response(_) | Formula::AtProperty(..) => {
+                None
+            }
             Formula::OwnProperty(property) => match item {
                 Item::Section(s) => self.property(s, &property.0),
                 _ => None,

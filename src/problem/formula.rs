@@ -64,6 +64,9 @@ pub enum What {
     Reaction(u8),
     /// A rib's deflection from its chord along its z (true) or y, at a fraction of its length.
     Deflection(bool, f64),
+    /// The displacement of a rib's point along its z (true) or y, at a fraction of its length, from the chord between two nodes: the ends
+    /// of the line it belongs to ([`Formula::in_line`] says which).
+    Sag(bool, f64, [u32; 2]),
     /// An internal force at a fraction of a rib's length.
     Force(Force, f64),
     /// Normal stress at a fraction and a point of the section.
@@ -122,6 +125,8 @@ pub enum Formula {
     OwnData(u32),
     /// In a rib's scope: the number in a section data column at one end (`from.c`).
     EndData(End, u32),
+    /// In a rib's scope: a dimension or property at a fraction of its length.
+    AtProperty(f64, Property),
     /// In a rib's scope: a number of its material.
     OwnMaterial(Arc<str>),
     /// `profile(depth, s)` where s follows from the item's data: a profile's number and its parameter, free of variables.
@@ -167,6 +172,39 @@ impl Formula {
             Formula::Fold(_, list) => list.iter().any(|one| one.analyses(problem, known)),
             Formula::Over { body, .. } => body.analyses(problem, known),
             _ => false,
+        }
+    }
+
+    /// Whether a sag stands inside.
+    pub fn is_of_line(&self) -> bool {
+        match self {
+            Formula::Response(response) => matches!(response.what, What::Sag(..)),
+            Formula::Unary(_, inner) => inner.is_of_line(),
+            Formula::Binary(_, left, right) => left.is_of_line() || right.is_of_line(),
+            Formula::Fold(_, list) => list.iter().any(Formula::is_of_line),
+            _ => false,
+        }
+    }
+
+    /// The formula of one rib of a line: folds over the group run over the line's ribs, and sags are taken from the chord of its ends.
+    pub fn in_line(&self, ribs: &Arc<Vec<u32>>, chord: [u32; 2]) -> Formula {
+        let go = |inner: &Formula| inner.in_line(ribs, chord);
+        match self {
+            Formula::Response(response) => match response.what {
+                What::Sag(vertical, x, _) => {
+                    Formula::Response(Arc::new(Response { what: What::Sag(vertical, x, chord), ..Response::clone(response) }))
+                }
+                _ => self.clone(),
+            },
+            Formula::Unary(op, inner) => Formula::Unary(*op, Box::new(go(inner))),
+            Formula::Binary(op, left, right) => Formula::Binary(*op, Box::new(go(left)), Box::new(go(right))),
+            Formula::Fold(fold, list) => Formula::Fold(*fold, list.iter().map(go).collect()),
+            Formula::Over { fold, collection: Collection::Ribs, members: Members::Group(thinned), body } => {
+                let chosen = |index: &&u32| thinned.as_ref().is_none_or(|list| list.binary_search(index).is_ok());
+                let members = Members::Listed(Arc::new(ribs.iter().filter(chosen).copied().collect()));
+                Formula::Over { fold: *fold, collection: Collection::Ribs, members, body: Arc::clone(body) }
+            }
+            other => other.clone(),
         }
     }
 

@@ -32,6 +32,7 @@ use std::sync::Arc;
 
 use crate::expression::ast::Collection;
 use crate::geometry::polygon::Ring;
+pub use crate::ribs::law::VolumeLaw;
 use crate::sections;
 pub use collections::sections_form;
 pub use formula::{Formula, Property};
@@ -76,6 +77,8 @@ pub struct Problem {
     pub structure: Option<Arc<structure::Structure>>,
     /// The number of the first input that stands for a deformation or a displacement, in the inner problem of a structure.
     pub first_input: u32,
+    /// Whether members known by their basic forces have these for inputs, rather than deformations.
+    pub inputs_are_forces: bool,
     /// What follows from it, see [`Problem::prepare`].
     pub statics: Option<Arc<statics::Statics>>,
     /// `[solver]`.
@@ -253,31 +256,6 @@ pub struct Ribs {
     pub law: Vec<VolumeLaw>,
     /// Data columns.
     pub data: Vec<Column>,
-}
-
-/// How a rib's volume follows from its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
-pub enum VolumeLaw {
-    /// l/3·(S1 + S2 + √(S1·S2)), note (2.3.1) and (2.4.1).
-    #[default]
-    Frustum,
-    /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
-    Prismatoid,
-}
-
-impl VolumeLaw {
-    /// The law's name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            VolumeLaw::Frustum => "frustum",
-            VolumeLaw::Prismatoid => "prismatoid",
-        }
-    }
-
-    /// The law of this name.
-    pub fn named(name: &str) -> Option<VolumeLaw> {
-        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().find(|law| law.name() == name)
-    }
 }
 
 /// One data column of sections or ribs.

@@ -52,6 +52,9 @@ pub struct Prepared {
     pub grading: Vec<f64>,
     /// Whether its nodes stay where they are: then its inputs are deformations, else the twelve displacements of its ends.
     pub fixed: bool,
+    /// Whether its responses are formulas of its basic forces, which are computed once for all of them; of bars they are simpler by their
+    /// deformations.
+    pub by_forces: bool,
     /// Its loads, by number, in any case.
     pub loads: Vec<u32>,
     /// Its first input within a case.
@@ -168,8 +171,18 @@ fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::
     let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
     let fixed = ends.iter().all(|&node| structure.nodes.position[node as usize].iter().all(constant));
     let components = components(structure.plane, member, &rows);
+    let by_forces = fixed && !member.pinned && has_constant_moduli(structure, member.material);
     let grading = graded(steepest(problem, member.rib));
-    Prepared { rule, frame, rows, components, grading, fixed, loads: Vec::new(), first_input: 0 }
+    Prepared { rule, frame, rows, components, grading, fixed, by_forces, loads: Vec::new(), first_input: 0 }
+}
+
+/// Whether E and G are numbers.
+fn has_constant_moduli(structure: &Structure, material: u32) -> bool {
+    let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
+    structure.materials.get(material as usize).is_some_and(|material| {
+        constant(&material.young)
+            && !matches!(&material.shear, Some(super::structure::Shear::Modulus(modulus)) if !constant(modulus))
+    })
 }
 
 /// Basic forces that neither a hinge releases nor a plane leaves without a displacement to work on.

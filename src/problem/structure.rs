@@ -295,6 +295,21 @@ impl Structure {
         }
     }
 
+    /// The end nodes of the open line that some ribs make up; `None` where they are no such line.
+    pub fn chord(&self, ribs: &[u32]) -> Option<[u32; 2]> {
+        let mut visits: std::collections::BTreeMap<u32, usize> = std::collections::BTreeMap::new();
+        for &rib in ribs {
+            let member = self.members.get(self.member(rib)? as usize)?;
+            [member.start, member.end].into_iter().for_each(|node| *visits.entry(node).or_default() += 1);
+        }
+        let ends: Vec<u32> = visits.iter().filter(|(_, visits)| **visits == 1).map(|(node, _)| *node).collect();
+        let is_line = visits.values().all(|&visits| visits <= 2) && visits.len() == ribs.len() + 1;
+        match ends[..] {
+            [from, to] if is_line => Some([from, to]),
+            _ => None,
+        }
+    }
+
     /// Whether a rib's ends move with the design.
     pub fn moves(&self, rib: u32) -> bool {
         let Some(member) = self.member(rib).and_then(|member| self.members.get(member as usize)) else { return false };

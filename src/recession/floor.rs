@@ -11,6 +11,8 @@ const SETTLED: f64 = 1e-10;
 /// Regularisation of the Hessian's diagonal, relative to the magnitudes of its row, and of rows that are dependent.
 const PROXIMAL: f64 = 1e-10;
 const DUAL: f64 = 1e-14;
+/// The same where the steps are to stay at a stationary point: the accepted slope of 1e−6 moves it by 1e−3 at the most.
+const DAMPED: f64 = 1e-3;
 
 /// A place on the floor with the row multipliers there.
 #[derive(Clone)]
@@ -26,7 +28,7 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
         return Some(place);
     }
     for _ in 0..CORRECTIONS {
-        let step = newton_step(site, &moving, &place)?;
+        let step = newton_step(site, &moving, &place, PROXIMAL)?;
         let mut longest = 0.0f64;
         for (k, &j) in moving.iter().enumerate() {
             let before = place.x[j];
@@ -47,8 +49,32 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
     Some(place)
 }
 
+/// Newton's steps from a site, all free variables moving: where so many lead, and the longest change of each in units of the
+/// variables' sizes. `None` where the model has no value on the way.
+pub fn newton(site: &Site<'_>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+    let mut place = Floor { x: site.x.to_vec(), multipliers: site.multipliers.to_vec() };
+    let mut lengths = Vec::with_capacity(count);
+    for _ in 0..count {
+        let step = newton_step(site, site.free, &place, DAMPED)?;
+        let mut longest = 0.0f64;
+        for (&j, step) in site.free.iter().zip(&step) {
+            let before = place.x[j];
+            place.x[j] = (before + step).clamp(site.meta().lower[j], site.meta().upper[j]);
+            longest = longest.max((place.x[j] - before).abs() / site.sizes[j]);
+        }
+        for (&(i, _), step) in site.held.iter().zip(&step[site.free.len()..]) {
+            place.multipliers[i] += step;
+        }
+        if !place.x.iter().chain(&place.multipliers).all(|value| value.is_finite()) {
+            return None;
+        }
+        lengths.push(longest);
+    }
+    Some((place.x, lengths))
+}
+
 /// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes its own curvature one.
-fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor) -> Option<Vec<f64>> {
+fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, proximal: f64) -> Option<Vec<f64>> {
     let (meta, model) = (site.meta(), site.model);
     let (n, m) = (moving.len(), site.held.len());
     let mut slope = vec![0.0; meta.variables()];
@@ -83,15 +109,15 @@ fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor) -> Option<Vec<f
     let mut right = DVector::<f64>::zeros(n + m);
     moving.iter().enumerate().for_each(|(k, &j)| right[k] = -slope[j]);
     site.held.iter().enumerate().for_each(|(k, &(i, limit))| right[n + k] = limit - rows[i]);
-    let unit = balance(&mut matrix, &mut right, &size, m);
+    let unit = balance(&mut matrix, &mut right, &size, proximal);
     let solution = matrix.full_piv_lu().solve(&right)?;
     Some(solution.iter().zip(&unit).map(|(value, unit)| value * unit).collect())
 }
 
 /// Scales rows and columns alike: variables by their curvature (by the rows where they have none), rows by their largest entry;
 /// adds the regularisation. The scales.
-fn balance(matrix: &mut DMatrix<f64>, right: &mut DVector<f64>, size: &[f64], m: usize) -> Vec<f64> {
-    let n = size.len();
+fn balance(matrix: &mut DMatrix<f64>, right: &mut DVector<f64>, size: &[f64], proximal: f64) -> Vec<f64> {
+    let (n, m) = (size.len(), right.len() - size.len());
     let mut unit: Vec<f64> = size.iter().map(|size| if *size > 0.0 { size.sqrt().recip() } else { 1.0 }).collect();
     for k in 0..m {
         let largest = (0..n).map(|j| (matrix[(n + k, j)] * unit[j]).abs()).fold(0.0, f64::max);
@@ -104,7 +130,7 @@ fn balance(matrix: &mut DMatrix<f64>, right: &mut DVector<f64>, size: &[f64], m:
         }
     }
     for k in 0..n {
-        matrix[(k, k)] += if size[k] > 0.0 { PROXIMAL } else { 1.0 };
+        matrix[(k, k)] += if size[k] > 0.0 { proximal } else { 1.0 };
     }
     for k in n..n + m {
         matrix[(k, k)] -= DUAL;

@@ -8,4 +8,5 @@
 mod floor;
 mod valley;
 
+pub use floor::newton;
 pub use valley::{Site, Valley};

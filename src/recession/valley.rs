@@ -1,12 +1,13 @@
 //! Following a valley outwards.
 
 use super::floor::{Floor, settle};
+use crate::math::split_mix::SplitMix;
 use crate::model::{Meta, Model};
 
 /// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, and 2^100 sizes are beyond anything a model
 /// means.
 const DOUBLINGS: std::ops::Range<i32> = -10..100;
-/// Doublings that must go well before the model may end in an overflow.
+/// Doublings that must go well before the model may end in an overflow, or be lost in rounding.
 const ENOUGH: i32 = 24;
 /// The first step, in sizes of the variable.
 const FIRST: f64 = 0.25;
@@ -114,7 +115,9 @@ impl<'a> Valley<'a> {
                 if doubling >= ENOUGH { break } else { return None }
             };
             if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
-                return None;
+                // So far out that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
+                let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
+                if is_lost { break } else { return None }
             }
             if height.value < last.value {
                 last = height;
@@ -138,7 +141,9 @@ impl<'a> Valley<'a> {
         let mut floor = here.clone();
         for target in ways {
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, height)) if height.rises_above(base) => {
+                    return (self.site.is_feasible)(&settled.x) || self.rises_before(lead, target, floor, base);
+                }
                 Some((settled, _)) => floor = settled,
                 None => return self.rises_before(lead, target, floor, base),
             }
@@ -146,12 +151,17 @@ impl<'a> Valley<'a> {
         false
     }
 
-    /// The same between a place that has a value and one that has none.
+    /// The same between a place that has a value and one that has none, or is not feasible.
     fn rises_before(&self, lead: &Lead, mut without: f64, mut floor: Floor, base: Height) -> bool {
         for _ in 0..BISECTIONS {
             let target = 0.5 * (floor.x[lead.pivot] + without);
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
+                Some((settled, height)) if height.rises_above(base) => {
+                    if (self.site.is_feasible)(&settled.x) {
+                        return true;
+                    }
+                    without = target;
+                }
                 Some((settled, _)) => floor = settled,
                 None => without = target,
             }
@@ -174,30 +184,29 @@ impl<'a> Valley<'a> {
 
     /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
     fn height(&self, floor: &Floor) -> Option<Height> {
-        let value = self.value(&floor.x)?;
-        let beside = |digits: f64| {
-            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * share(j) * f64::EPSILON);
+        let (objective, bought) = self.value(&floor.x)?;
+        let noise_of = |digits: f64| {
+            // Each by its own: variables moved alike would keep their differences.
+            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
             let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
-            self.site.model.objective(&x).map_or(0.0, |value| value.abs())
+            let change = |there: (f64, Vec<f64>)| {
+                let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
+                (there.0 - objective).abs() + rows
+            };
+            self.value(&x).map_or(0.0, change)
         };
-        let objective = self.site.model.objective(&floor.x).ok()?.abs();
-        let noise = DIGITS.into_iter().map(|digits| (beside(digits) - objective).abs()).fold(0.0, f64::max);
-        Some(Height { value, noise: noise + ROUNDINGS * objective })
+        let noise = DIGITS.into_iter().map(noise_of).fold(0.0, f64::max);
+        let value = objective + bought.iter().map(|bought| bought.max(0.0)).sum::<f64>();
+        Some(Height { value, noise: noise + ROUNDINGS * objective.abs() })
     }
 
-    fn value(&self, x: &[f64]) -> Option<f64> {
+    /// f, and y_i·(c_i − limit_i) row by row.
+    fn value(&self, x: &[f64]) -> Option<(f64, Vec<f64>)> {
         let mut rows = vec![0.0; self.site.meta().rows()];
         self.site.model.constraints(x, &mut rows).ok()?;
-        let bought = |&(i, limit): &(usize, f64)| (self.site.multipliers[i] * (rows[i] - limit)).max(0.0);
-        let objective = self.site.model.objective(x).ok()?;
-        Some(objective + self.site.held.iter().map(bought).sum::<f64>())
+        let bought = |&(i, limit): &(usize, f64)| self.site.multipliers[i] * (rows[i] - limit);
+        Some((self.site.model.objective(x).ok()?, self.site.held.iter().map(bought).collect()))
     }
-}
-
-/// A fixed number in [−1, 1) without a pattern: variables moved alike would keep their differences.
-fn share(j: usize) -> f64 {
-    let mixed = (j as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub fn bounds(subject: &Subject, choices: &[Choice], interrupt: Option<&AtomicBo
     let task = Task {
         model: &model,
         substitution: None,
-        class: subject.class,
+        class: subject.class(),
         settings: &subject.settings,
         start: &model.meta().start,
         start_multipliers: None,

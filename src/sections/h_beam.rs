@@ -4,6 +4,7 @@
 
 use super::build::{monomial, radius, symmetric_modulus};
 use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
+use super::rectangles::{on_axis, plastic_between_flanges, torsion};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
@@ -68,15 +69,6 @@ impl Shape {
         let flanges = graph.multiply(flange, square);
         let both = graph.add(web, flanges);
         graph.scale(1.0 / 12.0, both)
-    }
-
-    /// J = (2·b·tf³ + hw·tw³)/3, thin walls without fillets.
-    fn torsion(&self, graph: &mut Graph) -> NodeId {
-        let (flanges, web) = (
-            monomial(graph, 1.0 / 12.0, &[(self.b, 1.0), (self.t, 3.0)]),
-            monomial(graph, 1.0 / 3.0, &[(self.hw, 1.0), (self.tw, 3.0)]),
-        );
-        graph.add(flanges, web)
     }
 
     /// h − tf, between the flanges' middles: hw + tf.
@@ -160,26 +152,21 @@ impl Kind for HBeam {
                 let (iy, width) = (shape.iy(graph), graph.binary(Binary::Max, shape.tw, shape.b));
                 symmetric_modulus(graph, iy, width)
             }
-            "J" => shape.torsion(graph),
+            "J" => {
+                let tf = graph.scale(0.5, shape.t);
+                torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)])
+            }
             "Asx" => monomial(graph, 5.0 / 6.0, &[(shape.b, 1.0), (shape.t, 1.0)]),
             "Asy" => {
                 let tf = graph.scale(0.5, shape.t);
                 let middle = graph.add(shape.hw, tf);
                 graph.multiply(shape.tw, middle)
             }
-            // b·tf·(h − tf) + tw·hw²/4
             "Wplx" => {
-                let arm = shape.arm(graph);
-                let flanges = monomial(graph, 0.5, &[(shape.b, 1.0), (shape.t, 1.0), (arm, 1.0)]);
-                let web = monomial(graph, 0.25, &[(shape.tw, 1.0), (shape.hw, 2.0)]);
-                graph.add(flanges, web)
+                let (tf, arm) = (graph.scale(0.5, shape.t), shape.arm(graph));
+                plastic_between_flanges(graph, [shape.b, tf, arm], [shape.tw, shape.hw], 1.0)
             }
-            // tf·b²/2 + hw·tw²/4
-            "Wply" => {
-                let flanges = monomial(graph, 0.25, &[(shape.t, 1.0), (shape.b, 2.0)]);
-                let web = monomial(graph, 0.25, &[(shape.hw, 1.0), (shape.tw, 2.0)]);
-                graph.add(flanges, web)
-            }
+            "Wply" => on_axis(graph, &[(shape.b, shape.t), (shape.tw, shape.hw)]),
             // tf·b³·(h − tf)²/24
             "Iw" => {
                 let arm = shape.arm(graph);
@@ -204,7 +191,7 @@ impl Kind for HBeam {
     /// in the web's centre tw·hw²/8 more; torsion T·tw/J there. Against sectionproperties' finite elements: 3 % low at the junction, 1 % at the centre.
     fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
         let shape = Shape::of(graph, given)?;
-        let (inertia, torsion) = (shape.ix(graph), shape.torsion(graph));
+        let (inertia, torsion) = (shape.ix(graph), self.property(graph, given, "J")?);
         let half_web = graph.scale(0.5, shape.hw);
         let y = match point {
             "junction-top" => half_web,

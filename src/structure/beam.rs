@@ -34,6 +34,8 @@ pub struct Beam<'a> {
     pub loads: MemberLoads<NodeId>,
     /// The deformations e of the case or combination.
     pub deformations: [NodeId; 6],
+    /// The basic forces, where they are known already.
+    pub forces: Option<[NodeId; 6]>,
 }
 
 /// Internal forces at a station.
@@ -88,6 +90,9 @@ impl Beam<'_> {
     pub fn basic_force(&self, graph: &mut Graph, component: usize) -> NodeId {
         if !self.components[component] {
             return graph.constant(0.0);
+        }
+        if let Some(forces) = self.forces {
+            return forces[component];
         }
         match component {
             0 => self.axial(graph),
@@ -217,7 +222,7 @@ impl Beam<'_> {
     /// displacements.
     fn axial_stress(&self, graph: &mut Graph, x: f64) -> NodeId {
         let area = self.section.property(graph, x, "A");
-        if !self.section.is_prismatic() || !self.components[0] {
+        if !self.section.is_prismatic() || !self.components[0] || self.forces.is_some() {
             let force = self.force(graph, Force::N, x);
             return Algebra::divide(graph, force, area);
         }

@@ -56,7 +56,7 @@ fn variable(problem: &Problem, name: String, written: &Value) -> Variable {
     let declared = &problem.variables;
     let is_own = |origin: &Declared| match *origin {
         Declared::Scalar(entry) | Declared::Element(entry, _) => *declared.declared[entry as usize] == *name,
-        Declared::Dimension(..) => false,
+        Declared::Dimension(..) | Declared::Input(_) => false,
     };
     let own: Vec<usize> = (0..declared.origin.len()).filter(|&j| is_own(&declared.origin[j])).collect();
     let pick = |values: &[f64]| own.iter().map(|&j| values[j]).collect();

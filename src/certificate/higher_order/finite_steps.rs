@@ -6,17 +6,17 @@
 //! and the point's own slope do not explain decides.
 
 use super::trial_point::Trial;
-use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::point::Point;
 use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
+use crate::certificate::{Tolerances, worst_complementarity};
 use crate::linear_algebra::FactorizationError;
 use crate::model::Model;
 
 /// Directions bending less than this, in units of σ, are followed: an inflection may hide as near as the slope test allows.
 const FLAT: f64 = 1e-2;
-/// Lengths, relative to the variables' sizes.
-const STEPS: [f64; 9] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
+/// Lengths, relative to the variables' sizes; beyond one size where all is level to the last digits up to there.
+const STEPS: [f64; 15] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6];
 const CORRECTIONS: usize = 8;
 /// Directions followed at the most, and the sum of orders of the systems solved for them.
 const DIRECTIONS: usize = 24;
@@ -25,6 +25,9 @@ const WORK: usize = 20_000;
 /// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
 /// off than κ·step = NEAR·optimality is another valley's.
 const NEAR: f64 = 20.0;
+/// Along a direction in which the objective rises by more than the accepted slope a limit that is nearly weakly active pushes
+/// back: a fall farther off than so much of the variables' sizes is another valley's (docs/certificate.md, (e)).
+const BEYOND_A_LIMIT: f64 = 1e-3;
 /// Limits nearer than this are left or kept by a step, and corrections do not run against them.
 const BESIDE: f64 = 1e-3;
 /// Rounding of the objective and of rows on their limits, in units of σ.
@@ -52,7 +55,14 @@ pub(in crate::certificate) fn find(
     if flat.is_empty() && inwards.is_empty() {
         return Ok(None);
     }
-    Walk::from(point, active, hessian, tolerances, &choice)?.lower_point(inwards.iter().take(most).chain(&flat))
+    let mut walk = Walk::from(point, active, hessian, tolerances, &choice)?;
+    let found = walk.lower_point(inwards.iter().take(most).chain(&flat));
+    // Bent rows whose gradients depend on one another may have no point in common but this one.
+    if found.is_some() || strict.is_empty() {
+        return Ok(found);
+    }
+    walk.may_be_left.fill(true);
+    Ok(walk.lower_point(inwards.iter().take(most).chain(&flat)))
 }
 
 /// The same along one direction: whether it leads to a lower point indeed.
@@ -67,7 +77,7 @@ pub(in crate::certificate) fn confirm(
     let largest = direction.iter().zip(&point.sizes).map(size).fold(f64::MIN_POSITIVE, f64::max);
     let unit: Vec<f64> = direction.iter().map(|step| step / largest).collect();
     let walk = Walk::from(point, active, hessian, tolerances, &Choice::relaxed_all(point, active, hessian));
-    matches!(walk.and_then(|walk| walk.lower_point(std::iter::once(&unit))), Ok(Some(_)))
+    walk.is_ok_and(|walk| walk.lower_point(std::iter::once(&unit)).is_some())
 }
 
 struct Walk<'w, 'p> {
@@ -78,12 +88,14 @@ struct Walk<'w, 'p> {
     /// Free variables; with those on weakly active bounds, which corrections leave where a step has put them.
     free: Vec<usize>,
     loose: Vec<usize>,
+    /// Variables beside a bound that is strictly active, with that bound: rows that depend on it are met where they are on it.
+    resting: Vec<(usize, f64)>,
     /// Rows near a limit, and which of them are not strictly active: these may be left, and are only gone back to.
     held: Vec<usize>,
     may_be_left: Vec<bool>,
     kkt: Kkt<'w>,
-    /// The objective at the point and its Lagrangian, the lower first: going to a limit that is missed by a little is neither a
-    /// fall nor a rise.
+    /// The objective at the point, or its Lagrangian where that is lower, and the objective with what all distances to limits are
+    /// worth: going to a limit that is missed by a little is neither a fall nor a rise.
     here: (f64, f64),
     /// ∇f + Jᵀy
     slopes: Vec<f64>,
@@ -100,6 +112,11 @@ impl<'w, 'p> Walk<'w, 'p> {
         let (meta, strict) = (point.meta(), choice.strict_rows());
         let is_apart = |&j: &usize| (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]) > BESIDE * point.sizes[j];
         let free: Vec<usize> = choice.free.iter().copied().filter(is_apart).collect();
+        let mut is_loose = vec![false; point.x.len()];
+        choice.loose_variables().into_iter().for_each(|j| is_loose[j] = true);
+        let pushes = active.multipliers.bounds.iter().enumerate().filter(|&(j, z)| *z != 0.0 && !is_loose[j]);
+        let beside = pushes.map(|(j, &z)| (j, point.bound(j, z)));
+        let resting = beside.filter(|&(j, bound)| (point.x[j] - bound).abs() <= tolerances.optimality * point.sizes[j]).collect();
         let distance = |i: usize| (point.rows[i] - meta.row_lower[i]).min(meta.row_upper[i] - point.rows[i]);
         let is_near = |&i: &usize| point.slopes[i] > 0.0 && distance(i) <= BESIDE * point.slopes[i];
         let held: Vec<usize> = (0..meta.rows()).filter(is_near).collect();
@@ -108,7 +125,8 @@ impl<'w, 'p> Walk<'w, 'p> {
         kkt.factor_proximal()?;
         let multipliers = active.multipliers;
         let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
-        let here = (point.objective.min(balanced), point.objective.max(balanced));
+        let worth = worst_complementarity(point, multipliers).1 * point.scale();
+        let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
         let slopes = point.row_gradient(&multipliers.rows);
         Ok(Walk {
             point,
@@ -117,6 +135,7 @@ impl<'w, 'p> Walk<'w, 'p> {
             tolerances,
             free,
             loose: choice.loose_variables(),
+            resting,
             held,
             may_be_left,
             kkt,
@@ -125,16 +144,24 @@ impl<'w, 'p> Walk<'w, 'p> {
         })
     }
 
-    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Result<Option<Vec<f64>>, FactorizationError> {
-        let mut directions = directions;
-        Ok(directions.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0))))
+    fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Option<Vec<f64>> {
+        let mut within_time = directions.take_while(|_| !self.point.is_over());
+        within_time.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0)))
     }
 
     /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
     fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
-        for step in STEPS.into_iter().take_while(|step| curvature * step <= NEAR * self.tolerances.optimality) {
+        let slope = self.slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs() / point.scale();
+        // ∂L/∂x_j·d_j is accepted up to optimality·σ, each.
+        let accepted = self.tolerances.optimality * direction.iter().zip(&point.sizes).map(|(v, d)| (v / d).abs()).sum::<f64>();
+        let longest = if slope > accepted { BEYOND_A_LIMIT } else { f64::INFINITY };
+        let is_near = |step: &f64| *step <= STEPS[0] || (*step <= longest && curvature * step <= NEAR * accepted);
+        for step in STEPS.into_iter().take_while(is_near) {
+            if point.is_over() {
+                return None;
+            }
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
             let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
@@ -167,16 +194,34 @@ impl<'w, 'p> Walk<'w, 'p> {
         }
     }
 
-    /// Chord steps towards the active limits and down the directions that bend, inside the bounds.
+    /// The share of a correction that keeps x beside the point.
+    fn share_beside(&self, x: &[f64], correction: &[f64], step: f64) -> f64 {
+        let point = self.point;
+        let share = |(&j, correction): (&usize, &f64)| {
+            let gone = (x[j] - point.x[j]) / point.sizes[j] * correction.signum();
+            (2.0 * step - gone).max(0.0) / correction.abs()
+        };
+        self.free.iter().zip(correction).map(share).fold(1.0, f64::min)
+    }
+
+    /// Chord steps towards the active limits and down the directions that bend, inside the bounds. Where the way down leads off,
+    /// from there on towards the limits alone.
     fn corrected(&self, mut x: Vec<f64>, length: f64) -> Option<Vec<f64>> {
         let (point, meta) = (self.point, self.point.meta());
+        let mut descends = true;
         meta.clamp(&mut x);
+        self.resting.iter().for_each(|&(j, bound)| x[j] = bound);
         for _ in 0..CORRECTIONS {
-            let right = self.residual(&x)?;
+            let mut right = self.residual(&x)?;
+            if !descends {
+                right[..self.free.len()].fill(0.0);
+            }
             let step = self.kkt.solve(&right).ok()?;
+            let share = if descends { self.share_beside(&x, &step[..self.free.len()], length) } else { 1.0 };
+            descends &= share == 1.0;
             let mut longest = 0.0f64;
             for (&j, step) in self.free.iter().zip(&step) {
-                x[j] += step * point.sizes[j];
+                x[j] += share * step * point.sizes[j];
                 longest = longest.max(step.abs());
             }
             self.keep_beside(&mut x, length);

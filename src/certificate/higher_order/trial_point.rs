@@ -2,31 +2,45 @@
 
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::point::Point;
+use crate::certificate::scales;
 use crate::model::Model;
 
 /// Roundings a sum of such magnitudes may hide.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+/// What corrections towards the rows leave, in units of their slopes.
+const CORRECTED: f64 = 1e-10;
 
 /// Objective and rows at another point.
 pub(in crate::certificate) struct Trial<'x> {
     x: &'x [f64],
     pub(in crate::certificate) objective: f64,
     rows: Vec<f64>,
+    /// The rows' terms here, or, where they have no derivatives here, at the judged point.
+    terms: Vec<f64>,
 }
 
 impl<'x> Trial<'x> {
     /// `None` where the model has no value.
     pub(in crate::certificate) fn at(point: &Point<'_>, x: &'x [f64]) -> Option<Trial<'x>> {
-        let (model, mut rows) = (&point.origin.model, vec![0.0; point.meta().rows()]);
+        let (model, meta) = (&point.origin.model, point.meta());
+        let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
         model.constraints(x, &mut rows).ok()?;
         let objective = model.objective(x).ok()?;
-        Some(Trial { x, objective, rows })
+        let terms = match model.jacobian(x, &mut jacobian) {
+            Ok(()) => scales::row_terms(meta, x, &jacobian),
+            Err(_) => point.terms.clone(),
+        };
+        Some(Trial { x, objective, rows, terms })
     }
 
     /// Whether it meets bounds and rows as well as the judged point must.
     pub(in crate::certificate) fn is_feasible(&self, point: &Point<'_>, tolerance: f64) -> bool {
         let meta = point.meta();
-        let scale = |i: usize, limit: f64| tolerance * limit.abs().max(point.slopes[i]);
+        let scale = |i: usize, limit: f64| {
+            let rounding = ROUNDINGS * (limit.abs() + self.terms[i].max(point.terms[i]));
+            tolerance * limit.abs().max(self.terms[i]) + rounding + CORRECTED * point.slopes[i]
+        };
         let meets = |i: usize| {
             let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.rows[i]);
             (lower.is_infinite() || value >= lower - scale(i, lower)) && (upper.is_infinite() || value <= upper + scale(i, upper))

@@ -5,6 +5,7 @@ use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
 use crate::linear_algebra::{FactorizationError, Inertia};
+use crate::math::split_mix::SplitMix;
 
 const POWER_STEPS: usize = 60;
 /// For flat directions: the shift that keeps the matrix regular, and the steps of inverse iteration.
@@ -225,6 +226,5 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.
 fn scattered(k: usize) -> f64 {
-    let mixed = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    0.5 + (mixed >> 11) as f64 / (1u64 << 53) as f64
+    0.5 + SplitMix::share(k as u64)
 }

@@ -71,7 +71,7 @@ impl Choice {
     }
 
     /// Number of weakly active limits.
-    pub(super) fn weak(&self) -> usize {
+    pub(in crate::certificate) fn weak(&self) -> usize {
         self.weak_bounds.len() + self.weak_rows.len()
     }
 

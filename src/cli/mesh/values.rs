@@ -2,10 +2,21 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use ribopt::mesh::Vector;
 use ribopt::mesh::graph::Rule;
 use ribopt::mesh::ribs::{Bounds, SectionKind, Unit};
 use ribopt::mesh::section::Plane;
+use ribopt::ribs::law::VolumeLaw;
+
+/// A volume law by its name.
+pub fn volume_law() -> impl TypedValueParser<Value = VolumeLaw> {
+    let laws = [
+        PossibleValue::new(VolumeLaw::Prismatoid.name()).help("Dimensions vary linearly: the volume of the solids"),
+        PossibleValue::new(VolumeLaw::Frustum.name()).help("The note's law"),
+    ];
+    PossibleValuesParser::new(laws).try_map(|name| VolumeLaw::named(&name).ok_or("no volume law"))
+}
 
 /// Degrees.
 pub fn angle(text: &str) -> Result<f64, String> {

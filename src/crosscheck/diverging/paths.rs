@@ -1,7 +1,7 @@
 //! Bent ways to infinity and ways to the domain's edge, which no straight ray shows.
 
 use super::{Fall, Ray, classify, size};
-use crate::crosscheck::session::Session as Referee;
+use crate::crosscheck::session::Session;
 
 /// Decades of a curve, and of the way towards an edge.
 const DECADES: i32 = 9;
@@ -12,8 +12,8 @@ const CHANGED: f64 = 10.0;
 /// The power curve x_j·g^p_j through a far point, p_j from how far each variable has come from its own size: outwards, or, where
 /// the point is as far out as numbers go, along the last decades before it. A minimum that is not attained because x·y ≥ 1 leads
 /// away, or a fall along y = x², lies on such a curve.
-pub(super) fn power_curve(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
-    let meta = referee.task.model.meta();
+pub(super) fn power_curve(session: &Session<'_>, x: &[f64]) -> Option<Ray> {
+    let meta = session.task.model.meta();
     let magnitude = |j: usize| (x[j].abs() / size(meta.start[j])).ln();
     let powers: Vec<f64> =
         (0..x.len()).map(|j| if x[j] != 0.0 && magnitude(j).abs() > CHANGED.ln() { magnitude(j) } else { 0.0 }).collect();
@@ -24,7 +24,7 @@ pub(super) fn power_curve(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
     let place = |decade: i32| -> Vec<f64> {
         x.iter().zip(&powers).map(|(x, power)| x * 10f64.powf(f64::from(decade) * power / largest)).collect()
     };
-    let fall = [0, -DECADES].into_iter().find_map(|first| classify(&falls(referee, (first..=first + DECADES).map(place))))?;
+    let fall = [0, -DECADES].into_iter().find_map(|first| classify(&falls(session, (first..=first + DECADES).map(place))))?;
     let growing = |j: usize| if powers[j] > 0.0 { powers[j] / largest * x[j] } else { 0.0 };
     let longest = (0..x.len()).map(growing).fold(0.0, |most: f64, v| most.max(v.abs()));
     let direction = (0..x.len()).map(|j| growing(j) / longest).collect();
@@ -33,14 +33,14 @@ pub(super) fn power_curve(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
 
 /// Falls towards a place where the model has no value, no slower the nearer it comes: log(x) or −1/x at 0. The way is that from
 /// the start to the point found, lengthened until the values end.
-pub(super) fn towards_edge(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
-    let start = referee.task.start;
+pub(super) fn towards_edge(session: &Session<'_>, x: &[f64]) -> Option<Ray> {
+    let start = session.task.start;
     let at = |share: f64| -> Vec<f64> { start.iter().zip(x).map(|(s, x)| s + share * (x - s)).collect() };
-    let meta = referee.task.model.meta();
+    let meta = session.task.model.meta();
     let has_value = |share: f64| {
         let x = at(share);
         let inside = x.iter().zip(meta.lower.iter().zip(&meta.upper)).all(|(x, (lower, upper))| x >= lower && x <= upper);
-        inside && super::feasible_value(referee, &x).is_some()
+        inside && super::feasible_value(session, &x).is_some()
     };
     let (mut inside, mut outside) = (1.0, 1.0 + 1e-3);
     if x == start || has_value(outside) {
@@ -51,7 +51,7 @@ pub(super) fn towards_edge(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
         if has_value(middle) { inside = middle } else { outside = middle }
     }
     let way = (0..EDGE_DECADES).map(|decade| at(inside * (1.0 - 10f64.powi(-decade))));
-    match classify(&falls(referee, way))? {
+    match classify(&falls(session, way))? {
         Fall::Endless => {
             let direction = start.iter().zip(x).map(|(s, x)| if x == s { 0.0 } else { x - s }).collect();
             Some(Ray { fall: Fall::Endless, direction, from: x.to_vec() })
@@ -62,7 +62,7 @@ pub(super) fn towards_edge(referee: &Referee<'_>, x: &[f64]) -> Option<Ray> {
 }
 
 /// By how much the objective falls from point to point, up to the first that is not feasible or has no value.
-fn falls(referee: &Referee<'_>, points: impl Iterator<Item = Vec<f64>>) -> Vec<f64> {
-    let values: Vec<f64> = points.map_while(|x| super::feasible_value(referee, &x)).collect();
+fn falls(session: &Session<'_>, points: impl Iterator<Item = Vec<f64>>) -> Vec<f64> {
+    let values: Vec<f64> = points.map_while(|x| super::feasible_value(session, &x)).collect();
     values.windows(2).map(|pair| pair[0] - pair[1]).collect()
 }

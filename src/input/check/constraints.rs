@@ -1,6 +1,7 @@
 //! `[[constraints]]`: the items each is repeated for, and its rows.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::Assembly;
 use crate::expression::ast::Collection;
@@ -10,7 +11,7 @@ use crate::input::source::{Place, Written};
 use crate::problem::glob::matches;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::resolve::{Filter, ItemScope, Stage};
-use crate::problem::{Cells, Constraint, Scope};
+use crate::problem::{Cells, Constraint, Formula, Limit, Scope};
 use crate::sections;
 
 impl Assembly<'_> {
@@ -61,8 +62,35 @@ impl Assembly<'_> {
             self.choice = Default::default();
             for (name, left, right) in rows {
                 let (place, text, detail) = (place.clone(), require.text.clone(), detail.clone());
-                self.problem.constraints.push(Constraint { name, detail, place, text, scope: scope.clone(), left, right });
+                let row = Constraint { name, detail, place, text, scope: scope.clone(), left, right };
+                match &scope {
+                    Scope::RibGroups(groups) if row.left.is_of_line() => self.by_line(&row, groups, entry),
+                    _ => self.problem.constraints.push(row),
+                }
             }
+        }
+    }
+
+    /// Rows of the ribs of each line, which take their sag from the chord of the line's ends.
+    fn by_line(&mut self, row: &Constraint, groups: &[(Box<str>, Vec<u32>)], entry: &ConstraintEntry) {
+        for (label, ribs) in groups {
+            let Some(chord) = self.problem.structure.as_deref().and_then(|structure| structure.chord(ribs)) else {
+                let message = format!("the ribs of line `{label}` do not make up one open line");
+                let help =
+                    "sag is taken from the chord of a line's ends: a ring or a branch has none; choose the ribs by `where`";
+                self.findings.mistake(entry.place, message, help);
+                continue;
+            };
+            let listed = Arc::new(ribs.clone());
+            let there = |formula: &Formula| formula.in_line(&listed, chord);
+            let right = match &row.right {
+                Limit::AtMost(limit) => Limit::AtMost(there(limit)),
+                Limit::AtLeast(limit) => Limit::AtLeast(there(limit)),
+                Limit::Equal(value) => Limit::Equal(there(value)),
+                Limit::Between(lower, upper) => Limit::Between(there(lower), there(upper)),
+            };
+            let (left, scope) = (there(&row.left), Scope::Ribs(ribs.clone()));
+            self.problem.constraints.push(Constraint { scope, left, right, ..row.clone() });
         }
     }
 

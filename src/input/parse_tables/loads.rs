@@ -8,8 +8,7 @@ use crate::input::declaration::structure::{LoadEntry, Targets, Vector};
 use crate::input::fields::{Field, Fields, Reader, Scalar};
 
 /// Keys that say what acts.
-const KINDS: &[&str] =
-    &["force", "moment", "self_weight", "temperature", "gradient", "pretension", "displacement"];
+const KINDS: &[&str] = &["force", "moment", "self_weight", "temperature", "gradient", "pretension", "displacement"];
 
 /// One load.
 pub(super) fn load(mut fields: Fields, reader: &mut Reader) -> LoadEntry {

@@ -7,6 +7,7 @@ use super::expression_graph::Context;
 use super::structure_of_rows::{Bend, RowStructure};
 use super::walk::Walk;
 use super::{AssemblyError, context};
+use crate::expression::operators::{Binary, Unary};
 use crate::expression::structure::Wanted;
 use crate::model::views::logarithmic::Logarithmic;
 use crate::model::{Class, Model, RibModel};
@@ -127,13 +128,11 @@ impl Judge<'_> {
         if let Some(j) = self.problem.variables.lower.iter().position(|&lower| lower < 0.0) {
             return Ok(Err(format!("{} may be negative", self.problem.variable_name(j))));
         }
-        let (objective, wanted, direct) = match (self.problem.sense, &self.problem.objective) {
-            (Sense::Minimize, Formula::Unary(crate::expression::operators::Unary::Negate, inner)) => {
-                (&**inner, Wanted::LogConcave, false)
-            }
-            (Sense::Minimize, objective) => (objective, Wanted::LogConvex, true),
-            (Sense::Maximize, objective) => (objective, Wanted::LogConcave, false),
-        };
+        // Minimising −f is maximising f, and the other way round.
+        let negated = negated(&self.problem.objective);
+        let objective = negated.as_ref().unwrap_or(&self.problem.objective);
+        let direct = (self.problem.sense == Sense::Minimize) == negated.is_none();
+        let wanted = if direct { Wanted::LogConvex } else { Wanted::LogConcave };
         let survey = self.objective(objective)?;
         if !holds(wanted, survey.bend()) {
             return Ok(Err(words("the objective", &survey, wanted)));
@@ -195,6 +194,23 @@ impl Geometric {
         }
         let ratios = super::assemble_rows(problem, &self.rows)?;
         Ok(Logarithmic::new(Arc::new(ratios), self.monomial))
+    }
+}
+
+/// The formula without the minus it is written with; `None` where it has none.
+fn negated(formula: &Formula) -> Option<Formula> {
+    let both = |operator: Binary, a: Formula, b: Formula| Formula::Binary(operator, Box::new(a), Box::new(b));
+    match formula {
+        Formula::Unary(Unary::Negate, inner) => Some((**inner).clone()),
+        Formula::Constant(value) if *value < 0.0 => Some(Formula::Constant(-value)),
+        Formula::Binary(Binary::Add, a, b) => Some(both(Binary::Add, negated(a)?, negated(b)?)),
+        Formula::Binary(Binary::Subtract, a, b) => Some(both(Binary::Add, negated(a)?, (**b).clone())),
+        Formula::Binary(operator @ (Binary::Multiply | Binary::Divide), a, b) => match (negated(a), negated(b)) {
+            (Some(a), None) => Some(both(*operator, a, (**b).clone())),
+            (None, Some(b)) => Some(both(*operator, (**a).clone(), b)),
+            _ => None,
+        },
+        _ => None,
     }
 }
 

@@ -12,9 +12,11 @@ use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
 use crate::problem::evaluate::Evaluation;
+pub(super) use crate::problem::evaluate::Item;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
-use crate::ribs::law::Law;
+use crate::ribs::law::VolumeLaw;
+use crate::structure::Tapered;
 pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.
@@ -23,15 +25,6 @@ pub(super) struct Context<'a> {
     pub item: Item,
     /// Members of the row's group, for folds over [`Members::Group`].
     pub group: &'a [u32],
-}
-
-/// The item of a scope.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Item {
-    None,
-    Section(u32),
-    Rib(u32),
-    Node(u32),
 }
 
 impl Context<'_> {
@@ -60,20 +53,11 @@ pub(super) fn members<'a>(problem: &Problem, collection: Collection, members: &'
     }
 }
 
-/// The item a member of a collection is.
-pub(super) fn item_of(collection: Collection, index: u32) -> Item {
-    match collection {
-        Collection::Ribs => Item::Rib(index),
-        Collection::Nodes => Item::Node(index),
-        Collection::Sections => Item::Section(index),
-    }
-}
-
 /// The law a rib of this declaration follows under a total.
-pub(super) fn law_of(problem: &Problem, rib: u32, total: Total) -> Law {
+pub(super) fn law_of(problem: &Problem, rib: u32, total: Total) -> VolumeLaw {
     match (total, problem.ribs.law[rib as usize]) {
-        (Total::Frustum, _) | (Total::Own, crate::problem::VolumeLaw::Frustum) => Law::Frustum,
-        _ => Law::Prismatoid,
+        (Total::Frustum, _) | (Total::Own, VolumeLaw::Frustum) => VolumeLaw::Frustum,
+        _ => VolumeLaw::Prismatoid,
     }
 }
 
@@ -121,7 +105,6 @@ impl OwnNumber {
                 cell(&problem.sections.data, column, end_section(problem, rib, end))
             }
             (OwnNumber::Material(name), Item::Rib(_)) => {
-                let item = super::profile::as_evaluated(item);
                 Evaluation::constants(problem).value(&Formula::OwnMaterial(name), item).unwrap_or(f64::NAN)
             }
             // The reader resolves own names only inside their scope.
@@ -265,7 +248,7 @@ impl<'a> Lowering<'a> {
             Formula::Over { fold, collection, members: which, body } => {
                 let nodes: Vec<NodeId> = members(self.problem, *collection, which, context)
                     .into_iter()
-                    .map(|index| self.formula(body, context.of(item_of(*collection, index))))
+                    .map(|index| self.formula(body, context.of(Item::of(*collection, index))))
                     .collect();
                 self.fold(*fold, &nodes)
             }
@@ -307,6 +290,13 @@ impl<'a> Lowering<'a> {
         match (formula, context.item) {
             (Formula::OwnProperty(property), Item::Section(section)) => self.own_property(section, property),
             (Formula::OwnData(column), item) => self.own_number(item, OwnNumber::Data(*column)),
+            (Formula::AtProperty(x, Property(name)), Item::Rib(rib)) => {
+                let sections = [End::From, End::To].map(|end| end_section(problem, rib, end));
+                let [start, end] = sections.map(|section| self.own_section(section));
+                let form = crate::sections::form(problem.sections.form[sections[0] as usize]);
+                let tapered = Tapered { form, outline: problem.outline(sections[0]), start: &start, end: &end };
+                tapered.property(&mut self.graph, *x, name)
+            }
             (Formula::OwnMaterial(name), item) => self.own_number(item, OwnNumber::Material(Arc::clone(name))),
             (Formula::OwnLength, Item::Rib(rib)) => self.rib_length(rib, true),
             (Formula::OwnLength, item) => self.own_number(item, OwnNumber::Length),

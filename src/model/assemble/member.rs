@@ -215,6 +215,8 @@ pub(super) struct MemberNodes {
     pub shear: Option<NodeId>,
     pub loads: MemberLoads<NodeId>,
     pub deformations: [NodeId; BASIC],
+    /// The basic forces, where these are the inputs.
+    pub forces: Option<[NodeId; BASIC]>,
     /// The deformations by its ends' displacements, where its nodes move with the design.
     pub rows: Option<crate::structure::deformation::Rows<NodeId>>,
     /// Member axes likewise.

@@ -67,6 +67,7 @@ impl TemplateKey {
             Formula::Fold(_, list) => list.iter().for_each(|one| self.visit(problem, one)),
             Formula::SectionProperty(section, property) => self.named(problem, *section, &property.0),
             Formula::OwnProperty(_) => self.own = true,
+            Formula::AtProperty(..) => (self.from, self.to) = (true, true),
             Formula::EndProperty(End::From, _) => self.from = true,
             Formula::EndProperty(End::To, _) => self.to = true,
             Formula::OwnLength => self.number(OwnNumber::Length),
@@ -83,7 +84,7 @@ impl TemplateKey {
                     self.number(OwnNumber::Material("density".into()));
                     self.number(OwnNumber::Length);
                 }
-                Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_)) => {
+                Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_) | What::Sag(..)) => {
                     (self.from, self.to) = (true, true);
                     if !self.sets.contains(&response.set) {
                         self.sets.push(response.set);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Numbering, identity, with_inputs};
+use super::{Known, Numbering, with_inputs};
 use crate::model::assemble::support_rows;
 use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
@@ -13,24 +13,26 @@ use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::structure::algebra::Numbers;
 use crate::structure::deformation::BASIC;
 
-/// The problem over design variables and inputs, with rows for every force that the state equations are made of.
-pub(super) fn inner_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
+/// The user's problem over design variables and inputs: basic forces of members known by them, in every case and combination.
+pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
     let mut inner = problem.clone();
     with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize);
+    inner.inputs_are_forces = true;
+    inner
+}
+
+/// Every force that the state equations are made of, as rows over design variables and deformations.
+pub(super) fn forces_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
+    let mut inner =
+        Problem { constraints: Vec::new(), objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
+    with_inputs(&mut inner, structure.cases.len() * statics.inputs as usize);
     for set in 0..structure.cases.len() as u32 {
         for (what, ribs) in forces(structure, statics, set) {
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
             let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
             let (name, place, text) = ("force".into(), String::new(), String::new());
-            inner.constraints.push(Constraint {
-                name,
-                detail: Box::default(),
-                place,
-                text,
-                scope: Scope::Ribs(ribs),
-                left,
-                right,
-            });
+            let detail = Box::default();
+            inner.constraints.push(Constraint { name, detail, place, text, scope: Scope::Ribs(ribs), left, right });
         }
     }
     inner
@@ -66,23 +68,29 @@ fn forces(structure: &Structure, statics: &Statics, case: u32) -> Vec<(What, Vec
     list
 }
 
-/// C and D: the user's rows as they are, then every state equation. Returns the loads on the nodes, the equations' right sides.
+/// C and D: the basic forces that others look at as they are, then every state equation. Returns where these forces stand, and the loads on
+/// the nodes: the equations' right sides.
 pub(super) fn outputs(
-    inner: &RibModel,
+    forces: &RibModel,
     structure: &Structure,
     statics: &Statics,
     numbering: &Numbering,
     maps: &mut Maps,
-) -> Vec<f64> {
-    let states = numbering.states;
-    for row in 0..states.first_row as u32 {
-        identity(&mut maps.outputs, row);
-        maps.linear.push([]);
-    }
+) -> (Known, Vec<f64>) {
+    let (states, mut known) = (numbering.states, Known::new());
     let number = states.block * states.blocks;
     let (mut sums, mut springs) = (vec![Vec::new(); number], vec![Vec::new(); number]);
-    for row in states.first_row..inner.meta().rows() {
-        for (equation, factor) in shares(inner, row, structure, statics, numbering) {
+    for row in 0..forces.meta().rows() {
+        let Some((case, member, what)) = force(forces, row, structure) else { continue };
+        let prepared = &statics.members[member as usize];
+        if let What::Basic(component) = what
+            && prepared.by_forces
+        {
+            known.insert((case, member, component), known.len() as u32);
+            maps.outputs.push([(row as u32, 1.0)]);
+            maps.linear.push([]);
+        }
+        for (equation, factor) in shares(&what, case, member, structure, statics, numbering) {
             sums[equation - states.first_row].push((row as u32, factor));
         }
     }
@@ -98,17 +106,28 @@ pub(super) fn outputs(
     }
     sums.into_iter().for_each(|sum| maps.outputs.push(sum));
     springs.into_iter().for_each(|spring| maps.linear.push(spring));
-    loads(structure, numbering)
+    (known, loads(structure, numbering))
 }
 
-/// The state equations that the force of an inner row goes into, and its factor there.
-fn shares(inner: &RibModel, row: usize, structure: &Structure, statics: &Statics, numbering: &Numbering) -> Vec<(usize, f64)> {
-    let origin = inner.row_origin(row);
-    let constraint = &inner.problem().constraints[origin.constraint as usize];
-    let (Formula::Response(response), Scope::Ribs(ribs)) = (&constraint.left, &constraint.scope) else { return Vec::new() };
-    let Some(member) = structure.member(ribs[origin.item as usize]) else { return Vec::new() };
+/// Case, member and kind of the force that a row is.
+fn force(forces: &RibModel, row: usize, structure: &Structure) -> Option<(u32, u32, What)> {
+    let origin = forces.row_origin(row);
+    let constraint = &forces.problem().constraints[origin.constraint as usize];
+    let (Formula::Response(response), Scope::Ribs(ribs)) = (&constraint.left, &constraint.scope) else { return None };
+    Some((response.set, structure.member(ribs[origin.item as usize])?, response.what.clone()))
+}
+
+/// The state equations that a force goes into, and its factor there.
+fn shares(
+    what: &What,
+    case: u32,
+    member: u32,
+    structure: &Structure,
+    statics: &Statics,
+    numbering: &Numbering,
+) -> Vec<(usize, f64)> {
     let (declared, prepared) = (&structure.members[member as usize], &statics.members[member as usize]);
-    let factors = match response.what {
+    let factors = match *what {
         What::Basic(component) => prepared.rows[usize::from(component)],
         What::Support(component) => support_rows(&mut Numbers, &prepared.frame, declared.offset)[usize::from(component)],
         What::End(direction) => std::array::from_fn(|at| f64::from(u8::from(at == usize::from(direction)))),
@@ -116,7 +135,7 @@ fn shares(inner: &RibModel, row: usize, structure: &Structure, statics: &Statics
     };
     let share = |(at, factor): (usize, f64)| {
         let node = if at < 6 { declared.start } else { declared.end };
-        (factor != 0.0).then(|| Some((numbering.row(response.set, node, at % 6)?, factor))).flatten()
+        (factor != 0.0).then(|| Some((numbering.row(case, node, at % 6)?, factor))).flatten()
     };
     factors.into_iter().enumerate().filter_map(share).collect()
 }

@@ -121,6 +121,11 @@ impl<M: Model> Mapped<M> {
         Mapped { inner, meta, maps, outputs_of, jacobian, linear, hessian }
     }
 
+    /// Gives the outer variables a start and their magnitudes.
+    pub fn start_at(&mut self, start: Vec<f64>, typical: Vec<f64>) {
+        (self.meta.start, self.meta.typical) = (start, typical);
+    }
+
     /// The model behind the maps.
     pub fn inner(&self) -> &M {
         &self.inner
@@ -216,10 +221,6 @@ impl<M: Model> Model for Mapped<M> {
         values.fill(0.0);
         self.hessian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
         Ok(())
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.inner.row_name(i)
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`bounds_only`] | no rows |
 //! | [`freed`] | without some limits |
 //! | [`mapped`] | variables and rows behind constant linear maps |
+//! | [`composed`] | inputs that are the rows of another model |
 //! | [`reduced`] | without its states, which are solved for |
 //! | [`elastic`] | rows that may be violated at a price |
 //! | [`augmented`] | rows multiplied out into the objective: the augmented Lagrangian |
@@ -16,6 +17,7 @@
 
 pub mod augmented;
 pub mod bounds_only;
+pub mod composed;
 pub mod elastic;
 pub mod flange_substitution;
 pub mod freed;

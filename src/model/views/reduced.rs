@@ -10,8 +10,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::model::lifted::{States, WithStates};
 use crate::model::{EvaluationError, Meta, Model, Own, Pattern, auxiliaries};
-use solve::Factors;
-pub use solve::{Mechanism, Stiffness};
+pub use solve::{Factors, Mechanism, Stiffness};
 
 /// A model without its states.
 pub struct Reduced<M> {
@@ -34,8 +33,9 @@ struct Analysed {
 }
 
 impl<M: WithStates> Reduced<M> {
-    /// The lifted model's design; `None` where it has no states.
-    pub fn of(lifted: M) -> Option<Self> {
+    /// The lifted model's design; `None` where it has no states. Without derivatives its patterns are empty: values alone are asked for
+    /// where designs are so large that dense derivatives do not fit.
+    pub fn of(lifted: M, derivatives: bool) -> Option<Self> {
         let own = lifted.meta();
         let states = own.states?;
         let (n, m) = (states.first_variable, states.first_row);
@@ -48,8 +48,10 @@ impl<M: WithStates> Reduced<M> {
             row_upper: own.row_upper[..m].to_vec(),
             row_is_linear: (0..m).map(|row| own.is_row_linear(row) && knows_no_state(own, row, n)).collect(),
             objective_is_linear: own.objective_is_linear,
-            jacobian: jacobian_pattern(own, states),
-            hessian: dense_lower(n),
+            names: own.names.clone(),
+            extra_work: ((states.block * states.blocks) as f64).powf(1.5),
+            jacobian: if derivatives { jacobian_pattern(own, states) } else { Pattern::from_positions(m, &mut Vec::new()) },
+            hessian: if derivatives { dense_lower(n) } else { Pattern::from_positions(n, &mut Vec::new()) },
             ..Meta::default()
         };
         let stiffness = Stiffness::of(own, states);
@@ -298,19 +300,7 @@ impl<M: WithStates> Model for Reduced<M> {
 
     fn complete(&self, x: &mut [f64]) {
         if let Some((list, first)) = self.lifted.auxiliaries() {
-            auxiliaries::complete(self, list, first, x);
+            auxiliaries::complete(self, list, first, x.len(), x);
         }
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.lifted.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.lifted.row_name(i)
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        self.lifted.row_place(i)
     }
 }

@@ -162,20 +162,31 @@ impl<'a, 'r> Resolver<'a, 'r> {
         {
             return self.listed_dimension(parts, index, span);
         }
+        // An array of variables is not written out for each of its elements.
+        if let Some((first, size)) = self.array_of_variables(base) {
+            let position = self.scalar(index)?;
+            let at = self.position(position, size, index.span, span)?;
+            return Some(Value::Scalar(Formula::Variable(first + at as u32)));
+        }
         let (base_value, position) = (self.value(base), self.scalar(index));
         let Value::Array(mut list) = base_value? else {
             return self.mistake(base.span, "this is one number, not an array", Some("leave the index out".into()));
         };
-        let Formula::Constant(position) = position? else {
+        let at = self.position(position?, list.len(), index.span, span)?;
+        Some(Value::Scalar(list.swap_remove(at)))
+    }
+
+    /// The place, counted from 0, that an index names among so many.
+    fn position(&mut self, index: Formula, size: usize, at: Span, span: Span) -> Option<usize> {
+        let Formula::Constant(position) = index else {
             let help = "an index is a number or an expression in parameters";
-            return self.mistake(index.span, "this index is not constant", Some(help.into()));
+            return self.mistake(at, "this index is not constant", Some(help.into()));
         };
-        let size = list.len();
         if position.fract() != 0.0 || position < 1.0 || position > size as f64 {
             let message = format!("there is no element {position}");
             return self.mistake(span, message, Some(format!("elements are counted from 1 to {size}")));
         }
-        Some(Value::Scalar(list.swap_remove(position as usize - 1)))
+        Some(position as usize - 1)
     }
 
     fn binary(&mut self, op: Binary, left: Value, right: Value, span: Span) -> Option<Value> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Resolver, Stage, Value};
 use crate::expression::Span;
-use crate::expression::ast::{Ast, Collection};
+use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::problem::evaluate::number;
 use crate::problem::formula::{End, Response, Subject, Total, What};
 use crate::problem::names::Entity;
@@ -89,6 +89,9 @@ impl<'a> Resolver<'a, '_> {
         let found = match (scope.collection, parts) {
             (Collection::Ribs, ["from" | "to", _]) if self.elements(parts).is_some() => return None,
             (Collection::Ribs, [end @ ("from" | "to"), name]) => return Some(self.end(end, name, span)),
+            (Collection::Ribs, ["at", name]) if self.world.problem.structure.is_some() => {
+                return Some(self.at_station(name, span));
+            }
             (Collection::Ribs, [word @ "material", name]) => return self.material(word, name, span),
             (Collection::Ribs, [name @ ("mass" | "weight")]) if self.is_free(name) => return Some(self.mass(name, span)),
             (Collection::Ribs, ["length"]) => Some(Formula::OwnLength),
@@ -203,6 +206,22 @@ impl<'a> Resolver<'a, '_> {
             return self.mistake(span, "there are no ribs to have a volume", Some("add [[ribs]]".into()));
         }
         Some(Formula::Volume(total))
+    }
+
+    /// The first element and the size of an array of variables, where a name alone means one.
+    pub(super) fn array_of_variables(&self, base: &Ast) -> Option<(u32, usize)> {
+        let AstKind::Name(parts) = &base.kind else { return None };
+        let [name] = &parts[..] else { return None };
+        if self.scope.is_some() || self.world.stage == Stage::Constants {
+            return None;
+        }
+        match self.world.names.find(self.world.problem, name)? {
+            Entity::Variable(v) => match self.world.variables.get(v as usize) {
+                Some((first, Some(size))) => Some((*first, *size as usize)),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     fn variable(&self, entry: u32) -> Value {

@@ -12,7 +12,7 @@ use crate::expression::operators::{Binary, Fold, Unary};
 use crate::problem::formula::{Members, Response, Subject, What};
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::{DIRECTIONS, Structure};
-use crate::problem::{Formula, Problem};
+use crate::problem::{Formula, Problem, Property};
 use crate::sections::{self, Points};
 use crate::structure::beam::Force;
 
@@ -38,6 +38,8 @@ pub struct Open {
     pub stress: bool,
     /// Some equivalent stress names no point.
     pub shear: bool,
+    /// Sags occur: rows are those of the ribs of each line.
+    pub sag: bool,
     /// Shear stresses occur, so that torsion may count either way.
     pub sign: bool,
     /// Cases and combinations that occur.
@@ -155,6 +157,13 @@ impl<'a> Resolver<'a, '_> {
                 let stress = one(rib, What::Stress(station, Arc::clone(&point)));
                 if name == "stress" {
                     return Some(stress);
+                }
+                if let Some(&without) =
+                    forms.iter().find(|&&form| sections::kind_of(form).points(sections::form(form)).shear.is_empty())
+                {
+                    let kind = sections::kind_of(without).name();
+                    let message = format!("sections of kind {kind} know no shear stresses, and `vonmises` needs them");
+                    return self.mistake(arguments.span, message, Some("limit stress(…) instead, or choose another kind".into()));
                 }
                 self.report.open.sign = true;
                 let sign = if self.world.chosen.sign == 0.0 { 1.0 } else { self.world.chosen.sign };
@@ -329,7 +338,23 @@ impl<'a> Resolver<'a, '_> {
         let rib = self.response_rib(structure, "sag", arguments)?;
         let vertical = self.needed("sag", arguments, "an axis of the ribs: y or z", axis)?;
         let station = self.station(arguments)?;
-        Some(Formula::Response(Arc::new(Response { set, subject: rib, what: What::Deflection(vertical, station) })))
+        if self.group != Some(Collection::Ribs) {
+            let help = "use it with for = \"ribs\" and by = \"line\", a datum that tells which ribs make up a line";
+            return self.mistake(arguments.span, "`sag` is taken from the chord of a line of ribs", Some(help.into()));
+        }
+        self.report.open.sag = true;
+        Some(Formula::Response(Arc::new(Response { set, subject: rib, what: What::Sag(vertical, station, [0, 0]) })))
+    }
+
+    /// `at.h`: a dimension or property at the row's station.
+    pub(super) fn at_station(&mut self, name: &str, span: Span) -> Option<Formula> {
+        let offered = self.scope.is_some_and(|scope| scope.offers(name));
+        if !offered {
+            let help = "a dimension or property of the sections at both ends, as at.h or at.A";
+            return self.mistake(span, format!("the sections here have no `{name}`"), Some(help.into()));
+        }
+        let station = self.open_station(span)?;
+        Some(Formula::AtProperty(station, Property(Arc::from(name))))
     }
 
     /// `mass` and `weight`: of all ribs with nodes, or of the rib whose row it is.

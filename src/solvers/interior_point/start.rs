@@ -7,6 +7,7 @@ use super::iterate::Iterate;
 use super::kkt::{Blocks, Kkt, Sides};
 use super::scaling;
 use super::vectors::norm_max;
+use crate::model::domain::middle;
 use crate::model::{EvaluationError, Meta};
 use crate::solvers::barrier::pushed;
 
@@ -64,17 +65,6 @@ fn evaluate_in_domain(form: &mut Form<'_>, iterate: &mut Iterate) -> Result<(), 
         }
     }
     Err(first)
-}
-
-/// A point well inside the bounds; where one is open, off the start by an amount that differs from variable to variable.
-fn middle(start: f64, lower: f64, upper: f64, j: usize) -> f64 {
-    let distance = (1.0 + start.abs()) * (1.0 + 0.1 * (j % 7) as f64);
-    match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => 0.5 * (lower + upper),
-        (true, false) => start.max(lower + distance),
-        (false, true) => start.min(upper - distance),
-        (false, false) => start + distance,
-    }
 }
 
 /// The model's x moved this share of the way towards the middle of its bounds.

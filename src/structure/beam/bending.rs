@@ -45,6 +45,9 @@ impl<'b, 'a> Bending<'b, 'a> {
         if !self.keeps(end) {
             return graph.constant(0.0);
         }
+        if let Some(forces) = self.beam.forces {
+            return forces[self.first + end];
+        }
         match self.beam.section.is_prismatic() && !self.beam.deforms_in_shear {
             true => self.prismatic(graph, end),
             false => self.by_flexibility(graph, end),

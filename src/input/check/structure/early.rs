@@ -33,7 +33,8 @@ impl Assembly<'_> {
         found.circles.iter().flatten().for_each(|&at| circular[at as usize] = true);
         for at in found.order {
             if !circular[at as usize] {
-                self.definitions[at as usize] = self.early_value(&declared.definitions[at as usize].1, trees[at as usize].as_ref());
+                self.definitions[at as usize] =
+                    self.early_value(&declared.definitions[at as usize].1, trees[at as usize].as_ref());
             }
         }
     }

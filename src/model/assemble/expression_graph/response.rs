@@ -5,12 +5,13 @@ use crate::expression::graph::NodeId;
 use crate::model::assemble::member::{Framework, MemberNodes, loads};
 use crate::model::lifted::nodal_load;
 use crate::problem::formula::{End, Response, Subject, What};
+use crate::problem::statics::position;
 use crate::problem::structure::Shear;
 use crate::sections;
 use crate::structure::algebra::Algebra;
 use crate::structure::axes::{Frame, frame};
 use crate::structure::beam::{Beam, Bending, Tapered};
-use crate::structure::deformation::{BASIC, along, rows, turning};
+use crate::structure::deformation::{BASIC, along, along as along_axis, rows, turning};
 
 impl Lowering<'_> {
     /// The graph of a response.
@@ -63,7 +64,9 @@ impl Lowering<'_> {
             Some(input) => self.variable(input),
             None => self.graph.constant(0.0),
         });
-        MemberNodes { length, young, shear: Some(shear), loads, deformations, rows: None, frame: None }
+        let by_forces = self.problem.inputs_are_forces && framework.member(member).1.by_forces;
+        let forces = by_forces.then_some(deformations);
+        MemberNodes { length, young, shear: Some(shear), loads, deformations, forces, rows: None, frame: None }
     }
 
     /// A member whose nodes or modulus vary with the design: everything as formulas of them and of its ends' displacements.
@@ -88,7 +91,16 @@ impl Lowering<'_> {
                 false => self.graph.constant(0.0),
             }),
         };
-        MemberNodes { length: frame.length, young, shear, loads, deformations, rows: Some(rows), frame: Some(frame) }
+        MemberNodes {
+            length: frame.length,
+            young,
+            shear,
+            loads,
+            deformations,
+            forces: None,
+            rows: Some(rows),
+            frame: Some(frame),
+        }
     }
 
     /// Length and axes of a member as formulas of its nodes' coordinates.
@@ -154,11 +166,15 @@ impl Lowering<'_> {
             grading: &prepared.grading,
             loads: nodes.loads,
             deformations: nodes.deformations,
+            forces: nodes.forces,
         };
         then(&mut self.graph, &beam)
     }
 
     fn of_member(&mut self, framework: Framework, member: u32, set: u32, what: &What) -> NodeId {
+        if let What::Sag(vertical, x, chord) = *what {
+            return self.sag(framework, member, set, (vertical, x, chord));
+        }
         if let What::End(direction) = what {
             return self.end_force(framework, member, set, usize::from(*direction));
         }
@@ -172,6 +188,48 @@ impl Lowering<'_> {
             What::Shear(x, point, sign) => beam.shear_stress(graph, *x, point, *sign),
             _ => graph.constant(f64::NAN),
         })
+    }
+
+    /// The displacement along an axis of the member, of its point at x from the chord between two nodes at the start's coordinates:
+    /// e·[(1 − x)·u_i + x·u_j − (1 − t)·u_S − t·u_E] and the deflection from its own chord.
+    fn sag(&mut self, framework: Framework, member: u32, set: u32, (vertical, x, chord): (bool, f64, [u32; 2])) -> NodeId {
+        let (declared, prepared) = framework.member(member);
+        let place = |node: u32| position(self.problem, framework.structure, node);
+        let [start, end, from, to] = [declared.start, declared.end, chord[0], chord[1]].map(place);
+        let frame = match prepared.fixed {
+            true => prepared.frame.axes[if vertical { 2 } else { 1 }].map(|value| self.graph.constant(value)),
+            false => self.varying_frame(framework, member).axes[if vertical { 2 } else { 1 }],
+        };
+        let point: [f64; 3] = std::array::from_fn(|axis| (1.0 - x) * start[axis] + x * end[axis]);
+        let (along, reach): (f64, f64) = (0..3).fold((0.0, 0.0), |(along, reach), axis| {
+            let span = to[axis] - from[axis];
+            (along + (point[axis] - from[axis]) * span, reach + span * span)
+        });
+        let t = if reach > 0.0 { along / reach } else { 0.0 };
+        let mut parts = Vec::new();
+        for (end, share) in [(0, 1.0 - x), (1, x)] {
+            let node = if end == 0 { declared.start } else { declared.end };
+            let row = along_axis(&mut self.graph, end, frame, declared.offset[end]);
+            for (at, coefficient) in row.into_iter().enumerate().filter(|(at, _)| at / 6 == end) {
+                if self.graph.as_constant(coefficient) != Some(0.0) {
+                    let displacement = self.variable(framework.displacement(set, node, at % 6));
+                    let moved = Algebra::multiply(&mut self.graph, coefficient, displacement);
+                    parts.push(self.graph.scale(share, moved));
+                }
+            }
+        }
+        for (node, share) in [(chord[0], t - 1.0), (chord[1], -t)] {
+            for (axis, &coefficient) in frame.iter().enumerate() {
+                if self.graph.as_constant(coefficient) != Some(0.0) {
+                    let displacement = self.variable(framework.displacement(set, node, axis));
+                    let moved = Algebra::multiply(&mut self.graph, coefficient, displacement);
+                    parts.push(self.graph.scale(share, moved));
+                }
+            }
+        }
+        let what = What::Deflection(vertical, x);
+        parts.push(self.of_member(framework, member, set, &what));
+        self.graph.sum(&parts)
     }
 
     /// abᵀq + (ΘO)ᵀg in one of the twelve directions of a member's ends.
@@ -247,7 +305,7 @@ impl Lowering<'_> {
             return self.graph.constant(0.0);
         }
         let known = self.member(framework, member, set);
-        let held = MemberNodes { deformations: [self.graph.constant(0.0); BASIC], ..known.clone() };
+        let held = MemberNodes { deformations: [self.graph.constant(0.0); BASIC], forces: None, ..known.clone() };
         self.members.insert((member, set), held);
         let mut parts = Vec::new();
         for at in 0..12 {
