@@ -203,6 +203,8 @@ fn constraint() -> Value {
             "only": { "type": ["array", "string"], "items": { "type": "string" }, "description": "Patterns (* and ?) of names." },
             "kind": { "enum": kinds, "description": "Items of this kind only." },
             "where": text("A comparison of data and parameters that chooses items."),
+            "cases": { "type": ["array", "string"], "items": { "type": "string" },
+                "description": "Once per case or combination that matches; the word case stands for it." },
             "by": text("One row per group of items sharing a value of this datum."),
         }),
         &["require"],

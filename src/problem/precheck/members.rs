@@ -78,41 +78,65 @@ impl Site<'_> {
     /// Properties that the forces a member carries ask for.
     fn sections(&mut self) {
         let mut lacking: BTreeMap<(u16, Vec<&'static str>), Vec<u32>> = BTreeMap::new();
+        let mut warped = vec![false; self.structure.members.len()];
+        for load in &self.structure.loads {
+            if let Action::Gradient { member, .. } = load.action {
+                warped[member as usize] = true;
+            }
+        }
         for at in 0..self.structure.members.len() as u32 {
-            let member = &self.structure.members[at as usize];
-            let needs = self.needs(at);
-            let section = self.problem.ribs.from[member.rib as usize];
-            let Some(&form) = self.problem.sections.form.get(section as usize) else { continue };
-            let known = sections::form(form);
-            let absent: Vec<&'static str> = needs.into_iter().filter(|name| !sections::offers(known, name)).collect();
-            if !absent.is_empty() {
-                lacking.entry((form, absent)).or_default().push(at);
+            let needs = self.needs(at, warped[at as usize]);
+            for form in self.forms(at) {
+                let known = sections::form(form);
+                let absent: Vec<&'static str> = needs.iter().copied().filter(|name| !sections::offers(known, name)).collect();
+                if !absent.is_empty() {
+                    lacking.entry((form, absent)).or_default().push(at);
+                    break;
+                }
             }
         }
         for ((form, absent), members) in lacking {
-            let kind = sections::kind_of(form).name();
-            let (count, words) = (members.len(), self.ribs_in_words(members.iter().copied()));
-            let list = absent.join(", ");
-            let bend = if count == 1 { "bends or twists" } else { "bend or twist" };
-            let message = match kind {
-                "general" => format!("{} {words} {bend}, but the section has no {list}", plural("rib", count)),
-                _ => format!("{} {words} {bend}, but a section of kind {kind} has no {list}", plural("rib", count)),
-            };
-            let help = match (kind, absent.as_slice()) {
-                ("general", _) => format!("give {list}, or joints = \"pinned\" to bars, which have an axial force only"),
-                (_, ["J"]) => "release the torque at one end, hinges = { end = [\"T\"] }, or choose another kind".to_owned(),
-                _ => "choose another kind".to_owned(),
-            };
-            self.mistake(About::Member(members[0]), message, help);
+            self.say_lacking(sections::kind_of(form).name(), &absent, &members);
         }
     }
 
-    fn needs(&self, at: u32) -> Vec<&'static str> {
+    fn say_lacking(&mut self, kind: &str, absent: &[&str], members: &[u32]) {
+        let (count, words) = (members.len(), self.ribs_in_words(members.iter().copied()));
+        let list = absent.join(", ");
+        let bend = if count == 1 { "bends or twists" } else { "bend or twist" };
+        let whose = if kind == "general" { "the section".to_owned() } else { format!("a section of kind {kind}") };
+        let message = format!("{} {words} {bend}, but {whose} has no {list}", plural("rib", count));
+        let help = match (kind, absent) {
+            (_, [.., "height"]) => "a gradient of temperature needs a section with a height: choose another kind".to_owned(),
+            ("general", _) => format!("give {list}, or joints = \"pinned\" to bars, which have an axial force only"),
+            (_, ["J"]) => "release the torque at one end, hinges = { end = [\"T\"] }, or choose another kind".to_owned(),
+            _ => "choose another kind".to_owned(),
+        };
+        self.mistake(About::Member(members[0]), message, help);
+    }
+
+    /// Forms of the sections at a member's ends, by number.
+    fn forms(&self, at: u32) -> Vec<u16> {
+        let rib = self.structure.members[at as usize].rib as usize;
+        let ends = [self.problem.ribs.from[rib], self.problem.ribs.to[rib]];
+        let mut forms: Vec<u16> = ends.iter().filter_map(|&s| self.problem.sections.form.get(s as usize).copied()).collect();
+        forms.dedup();
+        forms
+    }
+
+    /// Properties by which a member deforms; `warped`: its temperature differs between top and bottom.
+    fn needs(&self, at: u32, warped: bool) -> Vec<&'static str> {
         let member = &self.structure.members[at as usize];
         let carried = self.carried(at);
         let (about_z, about_y, torque) = (carried[1] || carried[2], carried[3] || carried[4], carried[5]);
-        let named =
-            [(about_y, "Ix"), (about_z, "Iy"), (torque, "J"), (member.shear && about_y, "Asy"), (member.shear && about_z, "Asx")];
+        let named = [
+            (about_y, "Ix"),
+            (about_z, "Iy"),
+            (torque, "J"),
+            (member.shear && about_y, "Asy"),
+            (member.shear && about_z, "Asx"),
+            (warped && about_y, "height"),
+        ];
         named.into_iter().filter(|(needed, _)| *needed).map(|(_, name)| name).collect()
     }
 

@@ -97,6 +97,11 @@ impl Assembly<'_> {
         if !sound {
             return; // half a structure has mistakes that the whole one has not
         }
+        if self.problem.structure.as_ref().is_some_and(|structure| structure.members.is_empty()) {
+            let place = whole.or(self.building.node_places.first().copied()).unwrap_or(Place::Whole);
+            self.findings.mistake(place, "no rib runs between nodes", "give ribs `start` and `end`, or leave the structure out");
+            return;
+        }
         for finding in precheck::findings(&self.problem) {
             let place = self.place_of(finding.about).or(whole).unwrap_or(Place::Whole);
             match finding.fatal {
