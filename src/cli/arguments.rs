@@ -33,6 +33,8 @@ Examples:
                 one kind of section each
   profile       dimensions that follow a B-spline along a line of ribs
   load-cases    arrays of moments and forces, one row per load case
+  truss, frame, grillage
+                structures: nodes, supports, loads, limits on stresses and displacements
   expressions   variables and expressions without any rib
 
 Reference, in the folder docs of the source:
@@ -99,9 +101,10 @@ pub struct Solve {
     /// Begin at an earlier answer: a result.json or a CSV with the columns name,value
     #[arg(long, value_name = "ANSWER")]
     pub start: Option<PathBuf>,
-    /// Solve from N starting points (the file's and N - 1 others, the same every time) and keep the best answer
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub starts: u32,
+    /// Solve from N starting points (the file's and N - 1 others, the same every time) and keep the best answer [default: 1; of structures
+    /// with up to 30 design variables, which have many minima, 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub starts: Option<u32>,
     /// Print the result as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,

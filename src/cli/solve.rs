@@ -31,7 +31,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
         out: arguments.out.as_deref(),
         start: start.as_ref(),
         inputs: &inputs,
-        starts: arguments.starts as usize,
+        starts: arguments.starts.map_or_else(|| subject.usual_starts(), |starts| starts as usize),
         plot: arguments.plot,
         interrupt: Some(interrupt::flag()),
     };

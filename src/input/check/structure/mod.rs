@@ -135,7 +135,9 @@ impl Assembly<'_> {
         self.building.structure.member_of_rib.resize(self.problem.ribs.names.len(), None);
         self.lengths();
         self.problem.structure = Some(Arc::new(std::mem::take(&mut self.building.structure)));
-        self.coupled_sections();
         self.first_sight(declared.structure.place);
+        if self.findings.clean() {
+            self.coupled_sections();
+        }
     }
 }
