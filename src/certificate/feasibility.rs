@@ -4,7 +4,7 @@
 use super::point::Point;
 use super::scales;
 use super::second_order::Kkt;
-use super::{Place, Worst, worse};
+use super::residuals::{Place, Worst, worse};
 
 /// A variable this many times its known size is far away.
 const FAR: f64 = 10.0;
