@@ -145,7 +145,8 @@ impl<'a> Session<'a> {
 
     /// Solves a helper model (elastic, boxed) that nobody watches, with a stop test of its own.
     pub(super) fn solve_aside(&self, solver: Solver<'_>, model: &dyn Model, start: &[f64], budget: Budget<'_>) -> Solution {
-        let own = Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE)).with_deadline(self.clock.judging_ends());
+        let own =
+            Certifier::new(model, Class::Nonlinear, strict(self.tolerances, SPARE)).with_deadline(self.clock.judging_ends());
         let stop = |x: &[f64]| own.accepts(x);
         self.solve(solver, model, &Start { x: start, multipliers: None, budget, stop: &stop, part: None }, &mut |_| {})
     }

@@ -64,7 +64,8 @@ impl Source {
 
     /// The line a byte stands on, counted from 1.
     pub fn line(&self, byte: usize) -> usize {
-        let ends = self.ends.get_or_init(|| self.text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(at, _)| at).collect());
+        let ends =
+            self.ends.get_or_init(|| self.text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(at, _)| at).collect());
         ends.partition_point(|&end| end < byte) + 1
     }
 
