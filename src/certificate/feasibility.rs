@@ -2,9 +2,9 @@
 //! meet them only because they are far away.
 
 use super::point::Point;
+use super::residuals::{Place, Worst, worse};
 use super::scales;
 use super::second_order::Kkt;
-use super::{Place, Worst, worse};
 
 /// A variable this many times its known size is far away.
 const FAR: f64 = 10.0;

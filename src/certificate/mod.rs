@@ -13,6 +13,7 @@ mod multipliers;
 mod newton;
 mod point;
 mod propagation;
+mod residuals;
 mod row_range;
 mod runaway;
 mod scales;
@@ -28,10 +29,9 @@ use std::time::Instant;
 use multipliers::Multipliers;
 use newton::Newton;
 use point::{Origin, Point};
+use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
 use second_order::{Active, Curvature, Hessian};
 
-use crate::linear_algebra::Partition;
-use crate::math::split_mix::SplitMix;
 use crate::model::{Class, EvaluationError, Model};
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
@@ -257,32 +257,12 @@ impl<'a> Certifier<'a> {
             primal_infeasibility: feasibility.infeasibility,
             met_only_far_away: feasibility.only_far_away,
             dual_infeasibility: worst_slope(point, multipliers, None).1,
-            complementarity: self.complementarity(point, multipliers),
+            complementarity: residuals::complementarity(point, multipliers, self.tolerances.optimality),
             row_sides: (0..meta.rows()).map(row_side).collect(),
             bound_sides: (0..meta.variables()).map(bound_side).collect(),
             sigma: point.sigma,
             ..Certificate::default()
         }
-    }
-
-    /// Σ|multiplier|·|distance|/σ; where a model falls apart, of the worst part: many parts that each pass are no fault together.
-    fn complementarity(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
-        let (sum, meta) = (worst_complementarity(point, multipliers).1, point.meta());
-        if sum <= self.tolerances.optimality {
-            return sum;
-        }
-        let Some(parts) = Partition::of_patterns(&meta.jacobian, &meta.hessian) else { return sum };
-        let mut sums = vec![0.0; parts.len()];
-        for (place, term) in complementarity_terms(point, multipliers) {
-            let variable = match place {
-                Place::Row(i) => meta.jacobian.row(i).first().copied(),
-                Place::Variable(j) => Some(j as u32),
-            };
-            // A row without variables is no part's.
-            let Some(variable) = variable else { return sum };
-            sums[parts.component(variable) as usize] += term;
-        }
-        sums.into_iter().fold(0.0, f64::max)
     }
 
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
@@ -329,89 +309,4 @@ impl<'a> Certifier<'a> {
             && certificate.dual_infeasibility <= accepted
             && certificate.complementarity <= accepted
     }
-}
-
-/// Where something is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
-    Row(usize),
-    Variable(usize),
-}
-
-type Worst = (Option<Place>, f64);
-
-fn worse(worst: Worst, next: (Place, f64)) -> Worst {
-    if next.1 > worst.1 { (Some(next.0), next.1) } else { worst }
-}
-
-/// max |∂L/∂x_j|·d_j/σ and where, less what rounding explains.
-fn worst_slope(point: &Point<'_>, multipliers: &Multipliers, rounding: Option<&[f64]>) -> Worst {
-    if point.sigma == 0.0 {
-        return (None, 0.0);
-    }
-    let rest = point.row_gradient(&multipliers.rows);
-    let slope = |j: usize| {
-        let slope = ((rest[j] + multipliers.bounds[j]) * point.sizes[j]).abs();
-        let explained = rounding.map_or(0.0, |rounding| rounding[j] * point.sigma);
-        (slope - explained).max(0.0) / point.scale_of(j)
-    };
-    (0..rest.len()).map(|j| (Place::Variable(j), slope(j))).fold((None, 0.0), worse)
-}
-
-/// Dual infeasibility where σ itself may be rounding (a start that is stationary, or the minimum): what the last digits of x make
-/// of ∂L/∂x_j, through the Hessian, does not count.
-fn beyond_rounding(point: &Point<'_>, multipliers: &Multipliers) -> Result<f64, EvaluationError> {
-    let rounding: Vec<f64> =
-        second_order::magnitudes(point, multipliers)?.iter().map(|size| 32.0 * f64::EPSILON * size).collect();
-    Ok(worst_slope(point, multipliers, Some(&rounding)).1)
-}
-
-/// What rounding may hide in max |∂L/∂x_j|·d_j/σ: ε times the magnitudes it is summed from.
-fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> f64 {
-    if point.sigma == 0.0 {
-        return 0.0;
-    }
-    let mut total: Vec<f64> = point.gradient.iter().map(|g| g.abs()).collect();
-    let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
-    let weights: Vec<f64> = multipliers.rows.iter().map(|y| y.abs()).collect();
-    point.meta().jacobian.add_transposed(&magnitudes, &weights, &mut total);
-    let free = (0..total.len()).filter(|&j| !point.meta().is_fixed(j));
-    free.fold(0.0, |most: f64, j| most.max(f64::EPSILON * total[j] * point.sizes[j] / point.sigma))
-}
-
-/// Last digits by which the point is moved to see what rounding makes of the objective.
-const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
-
-/// What the last digits of x make of the objective, in units of σ, beyond rounding of its value: where that is more than what is
-/// accepted of a slope, its terms cancel one another and its derivatives may be anything.
-fn objective_lost(point: &Point<'_>) -> f64 {
-    ((last_digits(point) - 64.0 * f64::EPSILON * point.objective.abs()) / point.scale()).max(0.0)
-}
-
-/// What the last digits of x make of the objective.
-fn last_digits(point: &Point<'_>) -> f64 {
-    let change = |digits: f64| {
-        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
-        let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
-        point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
-    };
-    DIGITS.into_iter().map(change).fold(0.0, f64::max)
-}
-
-/// |multiplier|·|distance to its limit|/σ, limit by limit.
-fn complementarity_terms<'a>(point: &'a Point<'_>, multipliers: &'a Multipliers) -> impl Iterator<Item = (Place, f64)> + 'a {
-    let term = |multiplier: f64, value: f64, limit: f64| {
-        if multiplier == 0.0 { 0.0 } else { multiplier.abs() * (value - limit).abs() / point.scale() }
-    };
-    let rows = multipliers.rows.iter().enumerate();
-    let rows = rows.map(move |(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
-    let bounds = multipliers.bounds.iter().enumerate();
-    rows.chain(bounds.map(move |(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z)))))
-}
-
-/// Their sum, and the largest of them.
-fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers) -> Worst {
-    let add = |(worst, sum): (Worst, f64), next: (Place, f64)| (worse(worst, next), sum + next.1);
-    let (worst, sum) = complementarity_terms(point, multipliers).fold(((None, 0.0), 0.0), add);
-    (worst.0, sum)
 }

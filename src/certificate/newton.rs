@@ -5,8 +5,8 @@
 //! they stay as long as they are, or grow, and the objective falls at each; in wrong units they lead to another point.
 
 use super::feasibility::worst_violation;
-use super::last_digits;
 use super::point::Point;
+use super::residuals::last_digits;
 use super::runaway::{LARGEST, held_rows};
 use super::scales;
 use super::second_order::{Active, Choice};

@@ -2,7 +2,8 @@
 
 use super::multipliers::Multipliers;
 use super::point::Point;
-use super::{Certificate, Place, Tolerances, worst_violation};
+use super::residuals::{Place, lost_in_rounding, worst_slope};
+use super::{Certificate, Tolerances, worst_violation};
 use crate::expression::display::plain;
 
 /// Variables that change by less than this share of the largest relative change are not named, nor more than so many.
@@ -88,12 +89,12 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
 fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {
     let sizes =
         format!("({:.1e} of the objective's scale, accepted {:.1e})", certificate.dual_infeasibility, tolerances.optimality);
-    if super::lost_in_rounding(point, multipliers) > tolerances.optimality && certificate.is_feasible(tolerances) {
+    if lost_in_rounding(point, multipliers) > tolerances.optimality && certificate.is_feasible(tolerances) {
         return "only multipliers so large that their balance is lost in rounding would hold the point: the gradients of the active \
                 limits depend on one another, so no multipliers may exist here although the point may be a minimum"
             .into();
     }
-    let place = super::worst_slope(point, multipliers, None).0;
+    let place = worst_slope(point, multipliers, None).0;
     let name = match place {
         Some(Place::Variable(j)) => point.variable(j),
         _ => "a variable".into(),

@@ -141,9 +141,7 @@ impl<'a> Valley<'a> {
         let mut floor = here.clone();
         for target in ways {
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => {
-                    return (self.site.is_feasible)(&settled.x) || self.rises_before(lead, target, floor, base);
-                }
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
                 Some((settled, _)) => floor = settled,
                 None => return self.rises_before(lead, target, floor, base),
             }
@@ -151,17 +149,12 @@ impl<'a> Valley<'a> {
         false
     }
 
-    /// The same between a place that has a value and one that has none, or is not feasible.
+    /// The same between a place that has a value and one that has none.
     fn rises_before(&self, lead: &Lead, mut without: f64, mut floor: Floor, base: Height) -> bool {
         for _ in 0..BISECTIONS {
             let target = 0.5 * (floor.x[lead.pivot] + without);
             match self.place(lead, target, &floor) {
-                Some((settled, height)) if height.rises_above(base) => {
-                    if (self.site.is_feasible)(&settled.x) {
-                        return true;
-                    }
-                    without = target;
-                }
+                Some((settled, height)) if height.rises_above(base) => return (self.site.is_feasible)(&settled.x),
                 Some((settled, _)) => floor = settled,
                 None => without = target,
             }
@@ -169,9 +162,12 @@ impl<'a> Valley<'a> {
         false
     }
 
-    /// The floor and its height where the pivot stands there; the others begin where the direction leads them.
+    /// The floor and its height where the pivot stands there, inside its bounds; the others begin where the direction leads them.
     fn place(&self, lead: &Lead, target: f64, from: &Floor) -> Option<(Floor, Height)> {
         let (meta, way) = (self.site.meta(), target - from.x[lead.pivot]);
+        if target < meta.lower[lead.pivot] || target > meta.upper[lead.pivot] {
+            return None;
+        }
         let mut next = from.clone();
         for &(j, share) in &lead.others {
             next.x[j] = (next.x[j] + way * share).clamp(meta.lower[j], meta.upper[j]);

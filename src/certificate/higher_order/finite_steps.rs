@@ -6,10 +6,11 @@
 //! and the point's own slope do not explain decides.
 
 use super::trial_point::Trial;
+use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::point::Point;
+use crate::certificate::residuals::worst_complementarity;
 use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
-use crate::certificate::{Tolerances, worst_complementarity};
 use crate::linear_algebra::FactorizationError;
 use crate::model::Model;
 
