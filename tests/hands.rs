@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const BOX: &str = include_str!("../src/input/examples/box.toml");
+const BOX: &str = include_str!("../src/sections/examples/box.toml");
 /// A girder whose best design argmin finds by a second opinion.
 const TAPERED: &str = include_str!("data/tapered.toml");
 const X: &str = "minimize = \"x\"\n[variables]\nx = { lower = 1, upper = 2 }\ny = { lower = 0, upper = 1 }\n";
@@ -338,7 +338,7 @@ fn every_limit_is_told_with_its_use() {
 
 #[test]
 fn sizes_hold_linked_ones_and_volumes_the_mass() {
-    let place = Place::new(&[("i.toml", include_str!("../src/input/examples/i-section.toml"))]);
+    let place = Place::new(&[("i.toml", include_str!("../src/sections/examples/i-section.toml"))]);
     place.write("t.toml", TAPERED);
     let result = place.json("solve i.toml --json");
     let (mass, volume) = (result["mass"].as_f64().expect("a mass"), result["volume"]["total"].as_f64().expect("a volume"));

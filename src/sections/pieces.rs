@@ -193,6 +193,10 @@ impl Kind for ISection {
         "i-section"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/i-section.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         I_SECTION
     }
@@ -340,6 +344,10 @@ impl Kind for Channel {
         "channel"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/channel.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         CHANNEL
     }
@@ -438,6 +446,10 @@ impl Angle {
 impl Kind for Angle {
     fn name(&self) -> &'static str {
         "angle"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/angle.toml")
     }
 
     fn forms(&self) -> &'static [Form] {
