@@ -9,7 +9,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Circles that stay, by a part of each, with the reason.
-const EXCEPTIONS: &[(&str, &str)] = &[];
+const EXCEPTIONS: &[(&str, &str)] = &[
+    ("expression/parse/condition", "the grammar is recursive: conditions hold expressions, which hold `where` conditions"),
+    ("expression/structure/curvature", "the rules of products, norms and logarithms ask for the curvature of what stands inside"),
+    ("solvers/interior_point/engine", "one state machine: begin, line search, watchdog, restoration and polish are its steps"),
+    ("recession/floor", "the floor of a valley is found along the valley, and the valley ends on it"),
+    ("certificate/point", "a point's scales are computed from its derivatives and kept with them"),
+    ("crosscheck/session", "the session is what every step of the verdict works on"),
+    ("cli/failure", "a failure is shown as output, and output may fail"),
+    ("run/network", "sizing fails as reading the network does"),
+    ("mesh/formats/off", "the binary form shares the header's reader"),
+    ("mesh/graph", "lines are traced on the graph, and stations walk the lines"),
+];
 
 /// One source file.
 struct File {

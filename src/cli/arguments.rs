@@ -29,7 +29,7 @@ Exit codes:
 const EXAMPLES: &str = "\
 Examples:
   ribs          most of the file (the default)
-  rectangle, h-beam, i-section, tee, channel, angle, box, circle, tube, superellipse, polygon, polyline
+  rectangle, h-beam, i-section, tee, channel, angle, box, circle, tube, superellipse, polygon, polyline, general
                 one kind of section each
   profile       dimensions that follow a B-spline along a line of ribs
   load-cases    arrays of moments and forces, one row per load case

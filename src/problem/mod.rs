@@ -10,6 +10,7 @@ pub mod existence;
 pub mod formula;
 pub mod glob;
 mod instance;
+mod item_scope;
 pub mod items;
 pub mod kinks;
 pub mod mentions;

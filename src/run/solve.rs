@@ -8,15 +8,12 @@ use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::results::{Ending, Results};
-use super::{RunError, Subject, Watcher, pictures, sizes, utilisation};
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, utilisation};
 use crate::backends::Backend;
 use crate::crosscheck::{self, Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
-
-/// Rows, sections or ribs up to which utilisation, sizes and volumes are listed: beyond, the lists would take as long as the run.
-pub(super) const MOST_LISTED: usize = 300_000;
 
 /// What is asked of a run, besides the problem.
 pub struct Request<'a> {

@@ -37,6 +37,10 @@ impl Kind for General {
         "general"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/general.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

@@ -24,6 +24,10 @@ impl Kind for Polygon {
         "polygon"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/polygon.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

@@ -74,7 +74,7 @@ pub fn bounds(text: &str) -> Result<Bounds, String> {
 /// A kind of section that problem folders can be made for.
 pub fn kind(text: &str) -> Result<SectionKind, String> {
     SectionKind::parse(text).ok_or_else(|| {
-        let known = SectionKind::ALL.map(SectionKind::name).join(", ");
+        let known = SectionKind::all().map(SectionKind::name).collect::<Vec<_>>().join(", ");
         format!("ribs can be made of: {known}; for others write their points into sections.csv")
     })
 }

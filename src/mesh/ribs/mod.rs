@@ -103,7 +103,7 @@ impl Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options::of(SectionKind::Rectangle)
+        Options::of(SectionKind::default())
     }
 }
 

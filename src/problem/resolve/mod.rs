@@ -5,7 +5,6 @@ mod name;
 mod over;
 mod profile;
 pub mod response;
-mod scope;
 
 use super::evaluate::{Evaluation, Item};
 use super::names::Names;
@@ -14,9 +13,9 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
 
+pub use super::item_scope::ItemScope;
 pub use condition::Filter;
 pub use response::{Chosen, Open};
-pub use scope::ItemScope;
 
 /// One number's formula, or an array of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -291,4 +290,13 @@ fn join(fold: Fold, mut list: Vec<Formula>) -> Formula {
         Fold::Max => Binary::Max,
     };
     Formula::Constant(numbers.into_iter().reduce(|left, right| op.evaluate(left, right)).unwrap_or(f64::NAN))
+}
+
+/// The collection's word in files.
+fn word(collection: Collection) -> &'static str {
+    match collection {
+        Collection::Ribs => "ribs",
+        Collection::Sections => "sections",
+        Collection::Nodes => "nodes",
+    }
 }
