@@ -63,7 +63,8 @@ fn ribs_of_a_mesh_can_be_made_of_it() {
 
 #[test]
 fn every_kind_has_properties_that_every_section_has() {
-    for kind in sections::KINDS {
+    // Sections of kind `general` have the numbers they are given.
+    for kind in sections::KINDS.iter().filter(|kind| kind.has_rings()) {
         for name in ["A", "Ix", "Iy", "Wx", "Wy", "width", "height"] {
             assert!(kind.properties().contains(&name), "{} lacks {name}", kind.name());
         }
