@@ -12,6 +12,7 @@ use toml::de::DeTable;
 
 pub(super) use profiles::{DEFAULT_DEGREE, KINDS as PROFILE_KINDS};
 
+use super::declaration::structure::Vector;
 use super::declaration::{Declaration, Name, Numbers, Range, VariableEntry};
 use super::fields::{Field, Fields, Reader, Scalar};
 use super::source::Place;
@@ -120,4 +121,11 @@ fn range<T>(fields: &mut Fields, value: impl Fn(&Field, &mut Reader) -> Option<T
         read
     };
     Range { lower: one("lower"), upper: one("upper"), start: one("start") }
+}
+
+/// A list of numbers or expressions; `None` after a mistake.
+fn vector(field: &Field, reader: &mut Reader) -> Option<Vector> {
+    let Some(items) = field.items() else { return field.expected("a list of numbers, such as [0, 0, -1]", reader) };
+    let parts: Vec<Scalar> = items.iter().filter_map(|item| item.scalar(reader)).collect();
+    (parts.len() == items.len()).then_some(Vector { parts, place: field.place })
 }

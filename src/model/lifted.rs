@@ -7,6 +7,7 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+pub use super::states::{States, WithStates};
 use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
 use super::views::reduced::{Factors, Stiffness};
@@ -15,28 +16,6 @@ use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
 use crate::problem::structure::{Action, DIRECTIONS, Structure};
 use crate::problem::{Origin, Problem};
-pub use equations::nodal_load;
-
-/// Which variables are states, and which rows their equations: one block of both per load case, all after the design's own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct States {
-    /// The first of them; design variables stand before.
-    pub first_variable: usize,
-    /// The first of their equations.
-    pub first_row: usize,
-    /// States and equations per block.
-    pub block: usize,
-    /// Number of blocks. All have the same matrix ∂R/∂u.
-    pub blocks: usize,
-}
-
-/// A model with states.
-pub trait WithStates: Model {
-    /// Design variables in the place of kinks, the last ones of the design, and the first of the rows that bound them.
-    fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
-        None
-    }
-}
 
 /// A structure in design variables and displacements.
 ///

@@ -22,6 +22,7 @@ pub mod lifted;
 mod names;
 #[cfg(test)]
 pub(crate) mod sample;
+pub mod states;
 pub mod structural;
 pub mod views;
 
@@ -35,8 +36,9 @@ pub use components::Components;
 pub use evaluation::Evaluation;
 pub use evaluator::{Budget, Evaluator};
 pub use formulate::{Formulation, formulate};
-pub use lifted::{Lifted, States};
+pub use lifted::Lifted;
 pub use names::{NameTable, Names};
+pub use states::States;
 pub use structural::{Assembled, assemble_any};
 pub use views::reduced::Reduced;
 pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};

@@ -102,7 +102,7 @@ impl<'a> Evaluation<'a> {
                 Item::Rib(r) => {
                     let structure = self.problem.structure.as_deref()?;
                     let member = structure.members.get(structure.member(r)? as usize)?;
-                    super::resolve::response::number(structure, member.material, name)
+                    structure.material_number(member.material, name)
                 }
                 _ => None,
             },

@@ -4,7 +4,7 @@
 //! The forces of a member are functions of few inputs: its dimensions and its deformations. Deformations are fixed combinations of
 //! displacements, so the assembled model knows them as inputs of its own, and [`crate::model::lifted`] puts the displacements in.
 
-use super::structure::{Action, DIRECTIONS, Plane, Structure};
+use super::structure::{Action, Plane, Structure};
 use super::{Dimension, Problem};
 use crate::structure::Components;
 use crate::structure::algebra::Numbers;
@@ -128,6 +128,21 @@ impl Statics {
         }
     }
 
+    /// The load that acts on a node itself in one direction, in a case or combination.
+    pub fn nodal_load(&self, structure: &Structure, set: u32, node: u32, direction: usize) -> f64 {
+        let factors = structure.factors(set);
+        let value = |&load: &u32| {
+            let load = &structure.loads[load as usize];
+            let factor = factors.iter().find(|(case, _)| *case == load.case).map_or(0.0, |(_, factor)| *factor);
+            match &load.action {
+                Action::Nodal { force, moment, .. } if direction < 3 => factor * force[direction],
+                Action::Nodal { moment, .. } => factor * moment[direction - 3],
+                _ => 0.0,
+            }
+        };
+        self.loads_at[node as usize].iter().map(value).sum()
+    }
+
     /// Whether a node can move in a direction.
     pub fn is_free(&self, node: u32, direction: usize) -> bool {
         self.exists[node as usize][direction] && !self.fixed[node as usize][direction]
@@ -228,18 +243,18 @@ fn existing(structure: &Structure, members: &[Prepared]) -> Vec<[bool; 6]> {
     let mut exists = vec![[false; 6]; structure.nodes.names.len()];
     for (member, prepared) in structure.members.iter().zip(members) {
         for (end, node) in [member.start, member.end].into_iter().enumerate() {
-            for direction in 0..6 {
+            for (direction, known) in exists[node as usize].iter_mut().enumerate() {
                 let touched =
                     (0..BASIC).any(|at| prepared.components[at] && prepared.rows[at][6 * end + direction].abs() > 1e-12);
                 // A rotation of a variable shape may come to matter though it does not at the start.
                 let bends = prepared.components[1..].iter().any(|&kept| kept);
-                exists[node as usize][direction] |= touched || (!prepared.fixed && (direction < 3 || bends));
+                *known |= touched || (!prepared.fixed && (direction < 3 || bends));
             }
         }
     }
     for support in &structure.supports {
-        for direction in 0..6 {
-            exists[support.node as usize][direction] |= support.fixed[direction] || support.springs[direction] != 0.0;
+        for (direction, known) in exists[support.node as usize].iter_mut().enumerate() {
+            *known |= support.fixed[direction] || support.springs[direction] != 0.0;
         }
     }
     let directions = structure.plane.directions();
@@ -260,9 +275,4 @@ impl Action {
             | Action::Pretension { member, .. } => Some(*member),
         }
     }
-}
-
-/// `node b, x`
-pub fn direction_name(structure: &Structure, node: u32, direction: usize) -> String {
-    format!("node {}, {}", &structure.nodes.names[node as usize], DIRECTIONS[direction])
 }

@@ -271,6 +271,26 @@ pub enum Action {
 }
 
 impl Structure {
+    /// A number of a material, where it is one: E, G, nu, density, alpha, or one of its own.
+    pub fn material_number(&self, material: u32, name: &str) -> Option<f64> {
+        let material = self.materials.get(material as usize)?;
+        let constant = |dimension: Dimension| if let Dimension::Constant(value) = dimension { Some(value) } else { None };
+        match name {
+            "E" => constant(material.young),
+            "G" => match material.shear? {
+                Shear::Modulus(modulus) => constant(modulus),
+                Shear::Poisson(ratio) => Some(constant(material.young)? / (2.0 * (1.0 + ratio))),
+            },
+            "nu" => match material.shear? {
+                Shear::Poisson(ratio) => Some(ratio),
+                Shear::Modulus(modulus) => Some(constant(material.young)? / (2.0 * constant(modulus)?) - 1.0),
+            },
+            "density" => material.density,
+            "alpha" => material.expansion,
+            _ => material.data.iter().find(|(known, _)| &**known == name).map(|(_, value)| *value),
+        }
+    }
+
     /// Number of cases and combinations.
     pub fn load_sets(&self) -> usize {
         self.cases.len() + self.combinations.len()
@@ -279,7 +299,7 @@ impl Structure {
     /// The name of a case or combination.
     pub fn load_set_name(&self, set: u32) -> &str {
         let at = set as usize;
-        self.cases.get(at).map_or_else(|| &*self.combinations[at - self.cases.len()].name, |name| name)
+        self.cases.get(at).unwrap_or_else(|| &self.combinations[at - self.cases.len()].name)
     }
 
     /// The case or combination of this name.

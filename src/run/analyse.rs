@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{RunError, Subject};
+use crate::model::structural::mechanism;
 use crate::model::{Assembled, EvaluationError, assemble_any};
-use crate::problem::structure::DIRECTIONS;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
 use responses::responses;
@@ -55,8 +55,10 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         None => subject.shown().meta().start.clone(),
     };
     let problem = subject.problem();
+    if let Some(words) = mechanism(&Arc::new(problem.clone()), &x).map_err(|error| RunError::Choice(error.to_string()))? {
+        return Err(AnalysisError::Mechanism(words));
+    }
     let assembled = of_definitions(problem).map_err(|error| RunError::Choice(error.to_string()))?;
-    refuse_mechanism(&assembled, &x)?;
     let model = assembled.model();
     let mut values = vec![0.0; model.meta().rows()];
     model.constraints(&x, &mut values)?;
@@ -93,24 +95,4 @@ fn of_definitions(problem: &Problem) -> Result<Assembled, crate::model::Assembly
     let constraints = (0..problem.definitions.len()).map(row).collect();
     let objective = Formula::default();
     assemble_any(&Arc::new(Problem { constraints, objective, ..problem.clone() }))
-}
-
-/// A structure that can move without resistance, in words.
-fn refuse_mechanism(assembled: &Assembled, x: &[f64]) -> Result<(), AnalysisError> {
-    let Assembled::Structure(reduced) = assembled else { return Ok(()) };
-    let Some(mechanism) = reduced.mechanism(x)? else { return Ok(()) };
-    let lifted = reduced.lifted();
-    let Some(structure) = lifted.problem().structure.as_deref() else { return Ok(()) };
-    let moving = mechanism.motion.iter().enumerate().filter(|(_, motion)| motion.abs() > 0.3).take(6);
-    let words: Vec<String> = moving
-        .map(|(state, _)| {
-            let (node, direction) = lifted.direction(state);
-            let name = &structure.nodes.names[node as usize];
-            match direction {
-                0..3 => format!("node {name} can move in {}", DIRECTIONS[direction]),
-                _ => format!("node {name} can rotate about {}", &DIRECTIONS[direction][1..]),
-            }
-        })
-        .collect();
-    Err(AnalysisError::Mechanism(words.join("; ")))
 }

@@ -77,6 +77,7 @@ impl Solved {
 /// Before anything is solved: a folder that cannot be used, no backend that takes the problem. Files that cannot be written
 /// afterwards are told by [`Solved::unwritten`].
 pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
+    subject.refuse_mechanism()?;
     refuse_if_none_accepts(&request.choices, subject.model())?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::{RunError, plausible};
 use crate::files::Inputs;
 use crate::input::{self, Progress};
+use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
@@ -80,7 +81,7 @@ impl Subject {
             objective: problem.objective_text.clone(),
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
-            warnings: problem.warnings.iter().cloned().chain(plausible::warnings(&problem)).collect(),
+            warnings: problem.warnings.iter().cloned().chain(plausible::warnings(problem)).collect(),
             changes: Vec::new(),
         };
         let settings = problem.settings.clone();
@@ -128,6 +129,21 @@ impl Subject {
     /// The structure's analysis, where the problem asks for any.
     pub fn analysis(&self) -> Option<&Reduced<Lifted>> {
         self.formulation.shown.analysis()
+    }
+
+    /// An error where the structure is a mechanism at the start: no design of this layout stands.
+    ///
+    /// # Errors
+    /// With the directions that meet no resistance.
+    pub fn refuse_mechanism(&self) -> Result<(), RunError> {
+        let Some(model) = self.analysis() else { return Ok(()) };
+        match mechanism(model.lifted().problem(), &model.meta().start) {
+            Ok(Some(words)) => Err(RunError::Choice(format!(
+                "the structure is a mechanism: {words}; support it there, or brace it with another rib"
+            ))),
+            // What has no value at the start is told by whoever looks for a start.
+            _ => Ok(()),
+        }
     }
 
     /// Starting points where the user names no number: several for small structures, for which local minima are the rule.

@@ -52,6 +52,19 @@ pub fn turning<A: Algebra>(algebra: &mut A, end: usize, axis: [A::Number; 3]) ->
     row
 }
 
+/// Where the six support forces of a simply supported member act: the start along x, y, z and about x, the end along y and z.
+pub fn support_rows<A: Algebra>(algebra: &mut A, frame: &Frame<A::Number>, offset: [[f64; 3]; 2]) -> [[A::Number; 12]; 6] {
+    let [e1, e2, e3] = frame.axes;
+    [
+        along(algebra, 0, e1, offset[0]),
+        along(algebra, 0, e2, offset[0]),
+        along(algebra, 0, e3, offset[0]),
+        turning(algebra, 0, e1),
+        along(algebra, 1, e2, offset[1]),
+        along(algebra, 1, e3, offset[1]),
+    ]
+}
+
 fn difference<A: Algebra>(
     algebra: &mut A,
     displacement: &impl Fn(&mut A, usize, [A::Number; 3]) -> [A::Number; 12],

@@ -65,7 +65,7 @@ pub fn pieces(breaks: &[f64], tapered: bool) -> Vec<(f64, f64)> {
 /// the most: equal ratios for growing and for shrinking dimensions.
 pub fn graded(ratio: f64) -> Vec<f64> {
     const LARGEST: f64 = 3.0;
-    if !(ratio > LARGEST) || !ratio.is_finite() {
+    if ratio.is_nan() || ratio <= LARGEST || ratio.is_infinite() {
         return Vec::new();
     }
     let pieces = (ratio.ln() / LARGEST.ln()).ceil() as i32;

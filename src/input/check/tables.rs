@@ -3,6 +3,7 @@
 mod columns;
 
 use super::Assembly;
+use super::data::{infinite, put};
 use super::items::{Given, GivenValue};
 use crate::input::declaration::{Declaration, Name, Range};
 use crate::input::fields::Scalar;
@@ -165,30 +166,5 @@ impl Assembly<'_> {
                 self.findings.mistake(name.place, message, "fill either the one cell or the other two");
             }
         }
-    }
-}
-
-/// The mistake of a number that is too large for one, or infinite where no bound stands.
-fn infinite(row: &Row, at: usize, findings: &mut crate::input::findings::Findings) {
-    let help = "numbers reach to about 1.8e308; only bounds may be inf, or left empty";
-    findings.mistake(row.place(at), format!("`{}` is not finite", row.field(at)), help);
-}
-
-/// Puts a cell into a data column: a number, a text, or nothing.
-pub(super) fn put(
-    data: &mut super::data::DataColumns,
-    findings: &mut crate::input::findings::Findings,
-    row: &Row,
-    at: usize,
-    column: usize,
-    item: usize,
-) {
-    let text = row.field(at);
-    match row.number(at) {
-        Some(value) if value.is_infinite() => infinite(row, at, findings),
-        Some(value) => data.number(column, item, value),
-        None if text.parse::<f64>().is_ok() => findings.mistake(row.place(at), "this is no number", "leave the cell empty"),
-        None if text.is_empty() => {}
-        None => data.text(column, item, text),
     }
 }

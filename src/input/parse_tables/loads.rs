@@ -3,7 +3,7 @@
 use toml::de::DeValue;
 
 use super::name;
-use super::structure::vector;
+use super::vector;
 use crate::input::declaration::structure::{LoadEntry, Targets, Vector};
 use crate::input::fields::{Field, Fields, Reader, Scalar};
 

@@ -2,7 +2,7 @@
 
 use toml::de::DeValue;
 
-use super::structure::vector;
+use super::vector;
 use crate::input::declaration::structure::MemberEntry;
 use crate::input::fields::{Fields, Reader};
 use crate::input::source::Place;

@@ -3,10 +3,10 @@
 use toml::de::DeValue;
 
 use super::shapes::data;
-use super::{loads, name, named};
+use super::{loads, name, named, vector};
 use crate::input::declaration::Name;
 use crate::input::declaration::structure::{
-    CombinationEntry, Fix, MaterialEntry, NodeEntry, Stations, StructureEntries, SupportEntry, Vector,
+    CombinationEntry, Fix, MaterialEntry, NodeEntry, Stations, StructureEntries, SupportEntry,
 };
 use crate::input::fields::{Field, Fields, Reader, Scalar};
 
@@ -49,13 +49,6 @@ fn settings(mut fields: Fields, entries: &mut StructureEntries, reader: &mut Rea
     });
     entries.buckling_pieces = fields.take("buckling_pieces").and_then(|field| field.scalar(reader));
     fields.finish(reader);
-}
-
-/// A list of numbers or expressions; `None` after a mistake.
-pub(super) fn vector(field: &Field, reader: &mut Reader) -> Option<Vector> {
-    let Some(items) = field.items() else { return field.expected("a list of numbers, such as [0, 0, -1]", reader) };
-    let parts: Vec<Scalar> = items.iter().filter_map(|item| item.scalar(reader)).collect();
-    (parts.len() == items.len()).then_some(Vector { parts, place: field.place })
 }
 
 /// Every key of a table with its number.

@@ -17,7 +17,6 @@ use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
 use crate::ribs::law::VolumeLaw;
 use crate::structure::Tapered;
-pub(in crate::model) use response::support_rows;
 
 /// Whose own names a formula speaks of, and which items its group has.
 #[derive(Debug, Clone, Copy)]

@@ -42,7 +42,6 @@ use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 use accumulate::{Summation, Templates};
 pub use classify::{Classification, classify};
 use dependence::Dependence;
-pub(super) use expression_graph::support_rows;
 use expression_graph::{Context, Item};
 use kernel_groups::{Groups, Kernels};
 pub use volumes::volumes;

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::{Known, Numbering, with_inputs};
-use crate::model::assemble::support_rows;
 use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
 use crate::problem::formula::{Response, Subject, What};
@@ -11,7 +10,7 @@ use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::structure::algebra::Numbers;
-use crate::structure::deformation::BASIC;
+use crate::structure::deformation::{BASIC, support_rows};
 
 /// The user's problem over design variables and inputs: basic forces of members known by them, in every case and combination.
 pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
@@ -154,19 +153,4 @@ fn loads(structure: &Structure, numbering: &Numbering) -> Vec<f64> {
         }
     }
     loads
-}
-
-/// The load that acts on a node itself in one direction, in a case or combination.
-pub fn nodal_load(structure: &Structure, statics: &Statics, set: u32, node: u32, direction: usize) -> f64 {
-    let factors = structure.factors(set);
-    let value = |&load: &u32| {
-        let load = &structure.loads[load as usize];
-        let factor = factors.iter().find(|(case, _)| *case == load.case).map_or(0.0, |(_, factor)| *factor);
-        match &load.action {
-            Action::Nodal { force, moment, .. } if direction < 3 => factor * force[direction],
-            Action::Nodal { moment, .. } => factor * moment[direction - 3],
-            _ => 0.0,
-        }
-    };
-    statics.loads_at[node as usize].iter().map(value).sum()
 }

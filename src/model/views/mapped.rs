@@ -158,18 +158,16 @@ fn jacobian_shares(own: &Meta, maps: &Maps, pattern: &Pattern) -> Vec<Share> {
 
 /// Calls back for every share of BᵀHB's lower triangle: inner position, outer row and column, factor.
 fn each_pair(pattern: &Pattern, inputs: &Rows, mut share: impl FnMut(u32, u32, u32, f64)) {
-    let mut from = 0;
-    for (k, l) in pattern.iter() {
+    for (from, (k, l)) in pattern.iter().enumerate() {
         for &(i, b) in inputs.row(k) {
             for &(j, d) in inputs.row(l) {
                 // H_kl stands for H_lk, too: both orders fall on the lower triangle, twice on its diagonal.
                 let factor = if k != l && i == j { 2.0 * b * d } else { b * d };
                 if k != l || i >= j {
-                    share(from, i.max(j), i.min(j), factor);
+                    share(from as u32, i.max(j), i.min(j), factor);
                 }
             }
         }
-        from += 1;
     }
 }
 

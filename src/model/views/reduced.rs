@@ -8,7 +8,7 @@ mod solve;
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use crate::model::lifted::{States, WithStates};
+use crate::model::states::{States, WithStates};
 use crate::model::{EvaluationError, Meta, Model, Own, Pattern, auxiliaries};
 pub use solve::{Factors, Mechanism, Stiffness};
 
@@ -105,11 +105,11 @@ impl<M: WithStates> Reduced<M> {
         self.lifted.constraints(&z, &mut rows)?;
         self.lifted.jacobian(&z, &mut jacobian)?;
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for row in self.states.first_row..meta.rows() {
+        for (row, &value) in rows.iter().enumerate().skip(self.states.first_row) {
             let of_state = |at: &usize| meta.jacobian.columns[*at] as usize >= self.states.first_variable;
             let terms =
                 meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
-            worst = worst.max((rows[row] - meta.row_upper[row]).abs());
+            worst = worst.max((value - meta.row_upper[row]).abs());
             largest = largest.max(terms.sum::<f64>() + meta.row_upper[row].abs());
         }
         Ok(if largest > 0.0 { worst / largest } else { 0.0 })
@@ -169,14 +169,14 @@ impl<M: WithStates> Reduced<M> {
         let rows = stateful.iter().filter(|&&stateful| stateful).count();
         let columns = if rows >= n { self.sensitivities(point)? } else { &[] };
         let mut dense = vec![0.0; n];
-        for row in 0..m {
+        for (row, &through_states) in stateful.iter().enumerate() {
             dense.fill(0.0);
             for at in pattern.range(row) {
                 if let Some(value) = dense.get_mut(pattern.columns[at] as usize) {
                     *value += jacobian[at];
                 }
             }
-            if stateful[row] {
+            if through_states {
                 self.add_through_states(point, (row, jacobian), columns, &mut dense)?;
             }
             for at in self.meta.jacobian.range(row) {

@@ -147,18 +147,18 @@ impl<'a> Resolver<'a, '_> {
                     .and_then(|next| next.word)
                     .filter(|word| point(word).is_none() && self.world.names.find(self.world.problem, word).is_none());
                 if let (Some(word), Some(next)) = (unknown, arguments.list.front()) {
-                    let names: Vec<&str> = known.iter().flat_map(|points| all_points(points)).collect();
+                    let names: Vec<&str> = known.iter().flat_map(all_points).collect();
                     let help =
                         did_you_mean(word, names.iter().copied()).unwrap_or_else(|| format!("its points: {}", names.join(", ")));
                     return self.mistake(next.ast.span, format!("`{word}` is no point of the section"), Some(help));
                 }
                 let is_point = arguments.list.front().and_then(|next| next.word).is_some_and(|word| point(word).is_some());
                 let station = if is_point { self.open_station(arguments.span)? } else { self.station(arguments)? };
-                let point = match arguments.word(&point) {
+                let point = match arguments.word(point) {
                     Some(point) => point,
                     None if arguments.list.is_empty() => self.open_point(name, &forms, arguments.span)?,
                     None => {
-                        let names: Vec<&str> = known.iter().flat_map(|points| all_points(points)).collect();
+                        let names: Vec<&str> = known.iter().flat_map(all_points).collect();
                         let next = arguments.list.pop_front()?;
                         let help = next.word.and_then(|word| did_you_mean(word, names.iter().copied()));
                         let help = help.unwrap_or_else(|| format!("its points: {}", names.join(", ")));
@@ -406,7 +406,7 @@ impl<'a> Resolver<'a, '_> {
         if !(word == "material" && in_ribs) {
             return None;
         }
-        let known = |material: u32| number(structure, material, name);
+        let known = |material: u32| structure.material_number(material, name);
         let materials = self.scope.map(|scope| scope.members.as_slice()).unwrap_or_default();
         let lacking = materials.iter().find_map(|&rib| {
             let material = structure.members[structure.member(rib)? as usize].material;
@@ -419,28 +419,6 @@ impl<'a> Resolver<'a, '_> {
             return Some(self.mistake(span, format!("material `{}` has no number `{name}`", material.name), Some(help)));
         }
         Some(Some(Formula::OwnMaterial(Arc::from(name))))
-    }
-}
-
-/// A number of a material.
-pub fn number(structure: &Structure, material: u32, name: &str) -> Option<f64> {
-    use crate::problem::Dimension;
-    use crate::problem::structure::Shear;
-    let material = structure.materials.get(material as usize)?;
-    let constant = |dimension: Dimension| if let Dimension::Constant(value) = dimension { Some(value) } else { None };
-    match name {
-        "E" => constant(material.young),
-        "G" => match material.shear? {
-            Shear::Modulus(modulus) => constant(modulus),
-            Shear::Poisson(ratio) => Some(constant(material.young)? / (2.0 * (1.0 + ratio))),
-        },
-        "nu" => match material.shear? {
-            Shear::Poisson(ratio) => Some(ratio),
-            Shear::Modulus(modulus) => Some(constant(material.young)? / (2.0 * constant(modulus)?) - 1.0),
-        },
-        "density" => material.density,
-        "alpha" => material.expansion,
-        _ => material.data.iter().find(|(known, _)| &**known == name).map(|(_, value)| *value),
     }
 }
 

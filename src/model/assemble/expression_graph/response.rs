@@ -3,7 +3,6 @@
 use super::{Context, Item, Lowering, OwnNumber, end_section};
 use crate::expression::graph::NodeId;
 use crate::model::assemble::member::{Framework, MemberNodes, loads};
-use crate::model::lifted::nodal_load;
 use crate::problem::formula::{End, Response, Subject, What};
 use crate::problem::statics::position;
 use crate::problem::structure::Shear;
@@ -11,7 +10,7 @@ use crate::sections;
 use crate::structure::algebra::Algebra;
 use crate::structure::axes::{Frame, frame};
 use crate::structure::beam::{Beam, Bending, Tapered};
-use crate::structure::deformation::{BASIC, along, along as along_axis, rows, turning};
+use crate::structure::deformation::{BASIC, along as along_axis, rows, support_rows};
 
 impl Lowering<'_> {
     /// The graph of a response.
@@ -275,7 +274,7 @@ impl Lowering<'_> {
                 }
             }
         }
-        let load = nodal_load(framework.structure, framework.statics, set, node, direction);
+        let load = framework.statics.nodal_load(framework.structure, set, node, direction);
         parts.push(self.graph.constant(-load));
         self.graph.sum(&parts)
     }
@@ -285,7 +284,7 @@ impl Lowering<'_> {
         let mut parts = Vec::new();
         for node in 0..framework.structure.nodes.names.len() as u32 {
             for direction in 0..6 {
-                let load = nodal_load(framework.structure, framework.statics, set, node, direction);
+                let load = framework.statics.nodal_load(framework.structure, set, node, direction);
                 if load != 0.0 && framework.statics.is_free(node, direction) {
                     let displacement = self.variable(framework.displacement(set, node, direction));
                     parts.push(self.graph.scale(load, displacement));
@@ -341,21 +340,4 @@ impl Lowering<'_> {
         let volume = self.graph.multiply(length, mean);
         self.graph.multiply(density, volume)
     }
-}
-
-/// Where the six support forces of a simply supported member act: the start along x, y, z and about x, the end along y and z.
-pub(in crate::model) fn support_rows<A: Algebra>(
-    algebra: &mut A,
-    frame: &Frame<A::Number>,
-    offset: [[f64; 3]; 2],
-) -> [[A::Number; 12]; 6] {
-    let [e1, e2, e3] = frame.axes;
-    [
-        along(algebra, 0, e1, offset[0]),
-        along(algebra, 0, e2, offset[0]),
-        along(algebra, 0, e3, offset[0]),
-        turning(algebra, 0, e1),
-        along(algebra, 1, e2, offset[1]),
-        along(algebra, 1, e3, offset[1]),
-    ]
 }

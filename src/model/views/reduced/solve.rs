@@ -2,7 +2,7 @@
 
 use crate::linear_algebra::{Pattern, SymmetricSolver};
 use crate::math::split_mix::SplitMix;
-use crate::model::lifted::States;
+use crate::model::states::States;
 use crate::model::{EvaluationError, Meta, Model};
 
 /// A structure is a mechanism where the smallest eigenvalue of its stiffness, scaled to a unit diagonal, is below this: rounding leaves about

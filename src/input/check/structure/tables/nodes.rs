@@ -1,7 +1,7 @@
 //! The table of nodes: name, coordinates, data.
 
 use super::super::super::Assembly;
-use super::super::super::tables::put;
+use super::super::super::data::put;
 use super::super::nodes::UNKNOWN;
 use super::{filled, require, scalar};
 use crate::input::declaration::Name;
