@@ -3,19 +3,24 @@
 //! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]; nothing else changes.
 //! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
 
+mod angle;
 mod box_beam;
 mod build;
+mod channel;
 mod circle;
 mod h_beam;
+mod i_section;
 mod outline;
 mod pieces;
 mod polygon;
 mod polyline;
 mod rectangle;
+mod rectangles;
 mod superellipse;
 mod tee;
 mod tube;
 
+use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
 
@@ -146,9 +151,9 @@ pub static KINDS: &[&dyn Kind] = &[
     &tube::Tube,
     &polygon::Polygon,
     &polyline::Polyline,
-    &pieces::ISection,
-    &pieces::Channel,
-    &pieces::Angle,
+    &i_section::ISection,
+    &channel::Channel,
+    &angle::Angle,
 ];
 
 /// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.
@@ -176,7 +181,7 @@ fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[Ring]) -> Opt
     let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
     let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);
     let (name, value) = all.find(|(_, value)| !(*value > 0.0 && value.is_finite()))?;
-    Some(format!("{name} is {value}; it must be positive"))
+    Some(format!("{name} is {}; it must be positive", plain(value)))
 }
 
 /// Every form of every kind, in the order [`form`] counts them.

@@ -35,6 +35,14 @@ impl SyntaxError {
         SyntaxError { span, message: message.into(), help: None }
     }
 
+    /// A remedy where there is none that fits better.
+    pub(super) fn or_help(self, help: &str) -> Self {
+        match self.help {
+            Some(_) => self,
+            None => self.help(help),
+        }
+    }
+
     pub(super) fn help(self, help: impl Into<String>) -> Self {
         SyntaxError { help: Some(help.into()), ..self }
     }
