@@ -16,9 +16,7 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
         let share = beside.unwrap_or_else(|| turn(ledger, place, order.len(), k));
         let answer = match proved && share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
             true => {
-                let is_proved = found.iter().flatten().any(|answer| answer.is_certified());
-                let known = if is_proved { "a minimum is certified" } else { "one evaluation costs it very much" };
-                ledger.not_run(k, format!("not run: {known}, and its share of the work is a few evaluations"))
+                ledger.not_run(k, "not run: a minimum is certified, and its share of the work is a few evaluations".into())
             }
             false => {
                 let multipliers = ledger.session.task.start_multipliers;
@@ -41,7 +39,8 @@ fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share 
     Share { work, seconds: f64::INFINITY }
 }
 
-/// Those who gave way go on, with what is left of their share beside a certified answer. Where nobody has met the rows, the elastic phase may know why: it comes first.
+/// Those who gave way go on, with what is left of their share beside a certified answer. Where nobody has met the rows, the elastic
+/// phase may know why: it comes first.
 pub(super) fn go_on(ledger: &mut Ledger<'_, '_>, answers: &mut [Answer]) {
     let gave_way: Vec<usize> =
         ledger.order().into_iter().filter(|&k| answers[k].gave_way && !answers[k].is_certified()).collect();
