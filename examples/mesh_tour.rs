@@ -5,10 +5,12 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use ribopt::mesh::commands::{Source, new_file, plot, ribs_folder, solids};
+use ribopt::mesh::commands::{Source, new_file, ribs_folder, solids};
 use ribopt::mesh::network::read_geometry;
 use ribopt::mesh::solids::SizedRib;
 use ribopt::mesh::{QuadMesh, formats, generate, ribs, trace};
+use ribopt::report::About;
+use ribopt::report::pictures::{Load, network};
 
 fn main() -> Result<(), Box<dyn Error>> {
     match std::env::args().nth(1).as_deref() {
@@ -41,7 +43,9 @@ fn tour(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
         let report = solids(&sized, &["b".into(), "h".into()], &folder.join(format!("{name}_solids.{ending}")))?;
         println!("  {ending}: volume {}, {} overlapping joints", report.volume, report.overlapping_joints);
     }
-    Ok(plot(&sized, name, &folder.join(format!("{name}.svg")))?)
+    let loads: Vec<Load> = sized.iter().map(|rib| Load { share: rib.utilisation, limit: "made up".into() }).collect();
+    let about = About { title: name.into(), ..About::default() };
+    Ok(std::fs::write(folder.join(format!("{name}.svg")), network(&sized, &loads, &about))?)
 }
 
 fn million() -> Result<(), Box<dyn Error>> {

@@ -4,8 +4,8 @@
 usage: signals.py RIBOPT [--seconds 60] [--seed 1] [--problem FILE]
 
 A certified answer is put into a folder first. Then runs into the same folder are sent SIGINT, SIGTERM, SIGHUP or SIGKILL after a
-random time. A finding is: an exit code other than 5 (or that of a run that had ended), an end later than three seconds after the
-signal, result.json that is no JSON or lost its certified answer, a CSV that is not rectangular or does not end with a newline
+random time. A finding is: an exit code other than 5 (or that of a run that had ended), more than two seconds of processor time after the
+signal (a busy machine may take longer), or no end in thirty, result.json that is no JSON or lost its certified answer, a CSV that is not rectangular or does not end with a newline
 (of a killed run: the logs may be the killed run's, the tables may not), a folder that stays locked. Exit code 1 if there are any.
 """
 import argparse
@@ -14,6 +14,7 @@ import glob
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import sys
@@ -50,6 +51,21 @@ def wrong(out, killed):
     return f"{left[0]} is left" if left and not killed else None
 
 
+def used_by_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def used_by(pid):
+    """Processor seconds of a running process; none where the system does not tell."""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ribopt")
@@ -73,6 +89,7 @@ def main():
             one = rng.choice([signal.SIGINT, signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
             child = subprocess.Popen(long, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             time.sleep(rng.uniform(0.0, 1.5))
+            before, others = used_by(child.pid), used_by_children()
             child.send_signal(one)
             sent, runs = time.monotonic(), runs + 1
             try:
@@ -82,9 +99,10 @@ def main():
                 child.communicate()
                 told = b""
             late, killed = time.monotonic() - sent, one == signal.SIGKILL
+            worked = used_by_children() - others - before
             complaint = wrong(out, killed)
-            if late > 3.0 and not killed:
-                complaint = complaint or f"ended {late:.1f} s after the signal"
+            if (late > 29.0 or worked > 2.0) and not killed:
+                complaint = complaint or f"ended {late:.1f} s and {worked:.1f} s of processor time after the signal"
             if not killed and child.returncode not in (0, 5, -one):
                 complaint = complaint or f"exit code {child.returncode}: {told.decode(errors='replace')}"
             if complaint:

@@ -3,6 +3,7 @@
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::{Certificate, Place, Tolerances, worst_violation};
+use crate::expression::display::plain;
 
 /// Variables that change by less than this share of the largest relative change are not named, nor more than so many.
 const NAMED: f64 = 0.01;
@@ -74,7 +75,8 @@ fn violation(point: &Point<'_>, tolerances: &Tolerances) -> String {
         None => return "the point is not feasible".into(),
     };
     let (word, limit) = if value < lower { ("below", lower) } else { ("above", upper) };
-    format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {:.1e})", tolerances.constraint)
+    let (value, limit, accepted) = (plain(value), plain(limit), tolerances.constraint);
+    format!("{what} is {value}, {word} its limit {limit} by {size:.1e} of its scale (accepted {accepted:.1e})")
 }
 
 fn slope(point: &Point<'_>, multipliers: &Multipliers, certificate: &Certificate, tolerances: &Tolerances) -> String {

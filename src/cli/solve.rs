@@ -109,7 +109,7 @@ fn draw(arguments: &Solve, subject: &Subject, solved: &Solved, network: &Network
     }
     if arguments.plot {
         let out = solved.folder().join("network.svg");
-        sized.write_picture(&subject.about.title, &out).map_err(RunError::from)?;
+        sized.write_picture(&subject.about, &out).map_err(RunError::from)?;
         lines.push(format!("picture: {}", out.display()));
     }
     match arguments.json || arguments.quiet {

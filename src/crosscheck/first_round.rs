@@ -11,11 +11,10 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
     let order = ledger.order();
     let mut found: Vec<Option<Answer>> = vec![None; order.len()];
     for (place, &k) in order.iter().enumerate() {
-        let share = match share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?)))) {
-            Some(share) => share,
-            None => turn(ledger, place, order.len(), k),
-        };
-        let answer = match share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
+        let beside = share(ledger, found.iter().enumerate().filter_map(|(k, answer)| Some((k, answer.as_ref()?))));
+        let proved = beside.is_some();
+        let share = beside.unwrap_or_else(|| turn(ledger, place, order.len(), k));
+        let answer = match proved && share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
             true => {
                 ledger.not_run(k, "not run: the global minimum is proved, and its share of the work is a few evaluations".into())
             }
@@ -33,7 +32,8 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
 fn turn(ledger: &Ledger<'_, '_>, place: usize, count: usize, k: usize) -> Share {
     let work = match (place, count) {
         (_, 1) => f64::INFINITY,
-        (0, _) => work::first_turn(ledger.session.cost(ledger.solvers[k])),
+        // Those before it may have been refused: then it is the first.
+        _ if place == 0 || ledger.least_first_work() == 0.0 => work::first_turn(ledger.session.cost(ledger.solvers[k])),
         _ => work::later_turn(ledger.least_first_work()),
     };
     Share { work, seconds: f64::INFINITY }

@@ -4,6 +4,7 @@ use super::session::Session;
 use super::{Answer, Conflict, LimitMove, Outcome, Status};
 use crate::backends::Termination;
 use crate::certificate::Scope;
+use crate::expression::display::plain;
 
 /// Names shown at the most.
 const SHOWN: usize = 6;
@@ -97,14 +98,14 @@ fn change(session: &Session<'_>, found: &LimitMove) -> String {
     format!("{} {} -> {}{remarks}", found.limit.label(session.task.model), plain(found.from), plain(found.to))
 }
 
-/// Without rows of zeros.
-fn plain(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
-}
+/// A violation of no more than this share of a limit's scale is little.
+const LITTLE: f64 = 1e-3;
 
 pub(super) fn no_feasible_point(outcome: &mut Outcome) {
+    let little = outcome.certificate.as_ref().is_some_and(|own| own.primal_infeasibility <= LITTLE);
+    let how = if little { "by little" } else { "least of those found" };
     outcome.message =
-        "No feasible point was found; that there is none is not proved. This point misses the limits by little.".into();
+        format!("No feasible point was found; that there is none is not proved. This point misses the limits {how}.");
     outcome.remedy = Some("start from a feasible point with --start, or try many with --starts N".into());
 }
 

@@ -3,6 +3,11 @@
 use super::graph::{Graph, Node, NodeId};
 use super::operators::{Binary, Unary};
 
+/// Without rows of zeros, or of digits.
+pub fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+}
+
 /// What lies deeper is shown as `…`.
 const DEPTH: usize = 12;
 

@@ -44,6 +44,14 @@ impl SyntaxError {
         SyntaxError { span, message: message.into(), help: None }
     }
 
+    /// A remedy where there is none that fits better.
+    fn or_help(self, help: &str) -> Self {
+        match self.help {
+            Some(_) => self,
+            None => self.help(help),
+        }
+    }
+
     fn help(self, help: impl Into<String>) -> Self {
         SyntaxError { help: Some(help.into()), ..self }
     }

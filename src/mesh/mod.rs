@@ -1,5 +1,5 @@
 //! Rib meshes and networks: read, check, reconstruct, smooth, trace, slice; from rib lines to a problem folder and on to solids
-//! (docs/formulas.md, part 3).
+//! (chapter 3 of the note, as docs/meshes.md reads it).
 //!
 //! In reading order: [`PolygonMesh`] is what a file holds; [`QuadMesh`] is that, proved to be a quad mesh free of defects;
 //! [`graph::Graph`] the rib edges of any other; the stages take one or another. Every stage is deterministic and reports its invariants as a serialisable value.
@@ -18,12 +18,12 @@ mod half_edge;
 pub mod hausdorff;
 pub mod invariants;
 pub mod network;
-pub mod plot;
 mod polygon_mesh;
 pub mod quality;
 pub mod reconstruct;
 pub mod ribs;
 pub mod section;
+pub mod shade;
 pub mod smooth;
 pub mod solids;
 pub mod stations;
@@ -44,6 +44,11 @@ pub const NONE: u32 = u32::MAX;
 pub(crate) fn unit(v: Vector) -> Option<Vector> {
     let norm = v.norm();
     (norm.is_finite() && norm > 0.0).then(|| v / norm)
+}
+
+/// To six significant digits, which the shortest text of the number then has.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// The angle between two vectors, in [0, π]; accurate for small angles too (Kahan). Zero vectors give 0.

@@ -5,6 +5,10 @@ use super::{Components, EvaluationError, Model};
 /// Variables looked at one by one; of a larger model an even selection of as many is.
 const MOST_VARIABLES: usize = 400;
 
+/// Variables times entries of everything: each variable costs some twenty evaluations, and a check is to take seconds at any size.
+const WORK: usize = 8_000_000;
+const FEWEST_VARIABLES: usize = 20;
+
 /// Components looked at, of a model that falls apart.
 const MOST_COMPONENTS: usize = 100;
 
@@ -86,8 +90,10 @@ fn check_components(components: &dyn Components, x: &[f64]) -> Result<Derivative
 
 fn check_whole(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
     let exact = Exact::at(model, x)?;
-    let n = x.len();
-    let step = n.div_ceil(MOST_VARIABLES).max(1);
+    let (n, meta) = (x.len(), model.meta());
+    let size = n + meta.rows() + meta.jacobian.len() + meta.hessian.len();
+    let most = (WORK / size.max(1)).clamp(FEWEST_VARIABLES, MOST_VARIABLES);
+    let step = n.div_ceil(most).max(1);
     let mut check = DerivativeCheck { variables: (n.div_ceil(step), n), ..DerivativeCheck::default() };
     for j in (0..n).step_by(step) {
         compare_column(model, x, j, &exact, &mut check);

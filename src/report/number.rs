@@ -37,6 +37,12 @@ pub fn significant(value: f64, digits: usize) -> String {
     format!("{}e{exponent}", without_trailing_zeros(mantissa))
 }
 
+/// Four digits and the unit raised to a power, where there is a unit: `0.0412 m²`.
+pub fn with_unit_power(value: f64, unit: Option<&str>, power: u32) -> String {
+    let raised = ["", "", "²", "³"].get(power as usize).copied().unwrap_or("");
+    unit.map_or_else(|| significant(value, 4), |unit| format!("{} {unit}{raised}", significant(value, 4)))
+}
+
 /// A share as a percentage: `1.25 %`.
 pub fn percent(share: f64) -> String {
     format!("{} %", significant(100.0 * share, 3))

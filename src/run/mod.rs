@@ -8,6 +8,7 @@ pub mod folder;
 pub mod network;
 mod observe;
 mod pictures;
+mod plausible;
 mod present;
 mod results;
 pub mod section;

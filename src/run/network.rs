@@ -14,6 +14,8 @@ use crate::mesh::network::{NetworkError, RibGeometry, read_geometry};
 use crate::mesh::solids::{Report, SizedRib};
 use crate::model::EvaluationError;
 use crate::problem::Problem;
+use crate::report::About;
+use crate::report::pictures::{self, Load};
 
 /// The table's name.
 pub const GEOMETRY: &str = "geometry.csv";
@@ -49,6 +51,8 @@ pub enum NetworkFailure {
     Output(#[from] FormatError),
     #[error(transparent)]
     Command(#[from] CommandError),
+    #[error("cannot write {path}: {cause}; choose another folder with --out")]
+    Picture { path: PathBuf, cause: std::io::Error },
 }
 
 impl Network {
@@ -98,6 +102,8 @@ impl Network {
 pub struct Sized {
     /// One by one.
     pub ribs: Vec<SizedRib>,
+    /// What uses each of them most.
+    pub loads: Vec<Load>,
     /// What their tags are called.
     pub tag_names: Vec<String>,
 }
@@ -115,8 +121,10 @@ impl Sized {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn write_picture(&self, title: &str, out: &Path) -> Result<(), NetworkFailure> {
-        Ok(commands::plot(&self.ribs, title, out)?)
+    pub fn write_picture(&self, about: &About, out: &Path) -> Result<(), NetworkFailure> {
+        let picture = pictures::network(&self.ribs, &self.loads, about);
+        files::whole::write(out, |file| file.write_all(picture.as_bytes()))
+            .map_err(|cause| NetworkFailure::Picture { path: out.into(), cause })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Subject;
 use super::network::{NetworkFailure, Sized};
 use super::sizes::rib_volumes;
-use super::utilisation::utilisation;
+use super::utilisation::loads;
 use crate::mesh::network::RibGeometry;
 use crate::mesh::solids::{Ring, SizedRib};
 use crate::problem::evaluate::Evaluation;
@@ -14,7 +14,7 @@ use crate::sections;
 pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Result<Sized, NetworkFailure> {
     let problem = at(subject.problem(), x);
     let shapes = (0..problem.sections.names.len()).map(|s| Shape::of(&problem, s)).collect::<Result<Vec<_>, _>>()?;
-    let used = utilisation(subject, x)?;
+    let loads = loads(subject, x)?;
     let volumes = rib_volumes(subject.problem(), x, Some(VolumeLaw::Prismatoid))?;
     let dimensions = dimension_names(&problem);
     let rib = |(r, place): (usize, &RibGeometry)| {
@@ -23,7 +23,7 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
         SizedRib {
             rings: ends.map(|shape| shape.rings.clone()),
             tags: of_ends.chain([place.length(), volumes[r]]).collect(),
-            utilisation: used[r],
+            utilisation: loads[r].share,
             model_volume: Some(volumes[r]),
             geometry: place.clone(),
         }
@@ -31,7 +31,7 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
     let ribs = places.iter().enumerate().map(rib).collect();
     let of_ends = dimensions.iter().flat_map(|name| ["from", "to"].map(|end| format!("{end}.{name}")));
     let tag_names = of_ends.chain(["length".into(), "volume".into()]).collect();
-    Ok(Sized { ribs, tag_names })
+    Ok(Sized { ribs, loads, tag_names })
 }
 
 /// The problem with its variables' starts at x, where [`Evaluation`] looks.

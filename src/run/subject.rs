@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::RunError;
+use super::{RunError, plausible};
 use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::{AssemblyError, Class, Formulation, Model, Substitution, assemble, formulate, volumes};
@@ -43,7 +43,8 @@ impl Subject {
         let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
         subject.inputs = Inputs::new(input.files);
         subject.about.changes = changes.to_vec();
-        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
+        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
+        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
         Ok(subject)
     }
 
@@ -79,7 +80,7 @@ impl Subject {
             objective: problem.objective_text.clone(),
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
-            warnings: problem.warnings.clone(),
+            warnings: problem.warnings.iter().cloned().chain(plausible::warnings(problem)).collect(),
             changes: Vec::new(),
         };
         let settings = problem.settings.clone();

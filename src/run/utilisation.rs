@@ -11,24 +11,28 @@ use crate::expression::ast::Collection;
 use crate::expression::operators::Binary;
 use crate::model::{EvaluationError, Model, assemble};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::report::pictures::Load;
 pub use crate::report::utilisation::Table;
 use crate::report::utilisation::{Declared, Loaded, Use};
 
 /// A use this large or larger is shown as this: limits whose value has the wrong sign have no share.
 const MOST: f64 = 1e6;
 
-/// The largest use of each rib's limits; `None` for ribs no limit speaks of.
+/// The largest use of each rib's limits.
 ///
 /// # Errors
 /// A side of a row that has no value at this point.
-pub fn utilisation(subject: &Subject, x: &[f64]) -> Result<Vec<Option<f64>>, EvaluationError> {
+pub fn loads(subject: &Subject, x: &[f64]) -> Result<Vec<Load>, EvaluationError> {
     let problem = subject.problem();
-    let found = Found::of(problem, &uses(subject, x)?);
+    let uses = uses(subject, x)?;
+    let found = Found::of(problem, &uses);
     let section = |s: u32| found.sections.get(s as usize).copied().flatten();
     let ends = problem.ribs.from.iter().zip(&problem.ribs.to);
     // A rib's own, and those of its ends.
     let both = |(own, (&from, &to)): (&Option<Most>, (&u32, &u32))| larger(*own, larger(section(from), section(to)));
-    Ok(found.ribs.iter().zip(ends).map(|pair| both(pair).map(|most| most.share)).collect())
+    let load =
+        |most: Most| Load { share: Some(most.share), limit: problem.constraints[uses[most.at].used.constraint].name.clone() };
+    Ok(found.ribs.iter().zip(ends).map(|pair| both(pair).map(load).unwrap_or_default()).collect())
 }
 
 /// All limits with their values, and the sections and ribs by what uses them most.
@@ -69,9 +73,13 @@ struct Most {
     at: usize,
 }
 
+/// Shares this near to one another are one: of limits that are met together the first one in the file is named, not the one that
+/// rounding prefers.
+const TIE: f64 = 1e-6;
+
 fn larger(a: Option<Most>, b: Option<Most>) -> Option<Most> {
     match (a, b) {
-        (Some(a), Some(b)) => Some(if b.share > a.share { b } else { a }),
+        (Some(a), Some(b)) => Some(if b.share > a.share * (1.0 + TIE) { b } else { a }),
         (one, other) => one.or(other),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::build::{monomial, radius, symmetric_modulus};
 use super::defaults::{Defaults, PROPORTION, WEB_THICKNESS, length};
+use super::rectangles::plastic_between_flanges;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -49,12 +50,9 @@ impl Shape {
         graph.add(webs, flanges)
     }
 
-    /// b·tf·(h − tf) + tw·hi²/2
     fn plastic(&self, graph: &mut Graph) -> NodeId {
         let arm = graph.subtract(self.depth, self.flange);
-        let flanges = monomial(graph, 1.0, &[(self.width, 1.0), (self.flange, 1.0), (arm, 1.0)]);
-        let webs = monomial(graph, 0.5, &[(self.web, 1.0), (self.inner_depth, 2.0)]);
-        graph.add(flanges, webs)
+        plastic_between_flanges(graph, [self.width, self.flange, arm], [self.web, self.inner_depth], 2.0)
     }
 
     /// Width and depth between the walls' middles.

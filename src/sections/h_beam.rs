@@ -4,6 +4,7 @@
 
 use super::build::{monomial, radius, symmetric_modulus};
 use super::defaults::{Defaults, FLANGE, FLANGE_THICKNESS, PROPORTION, WEB_AND_FLANGE, WEB_THICKNESS};
+use super::rectangles::{on_axis, plastic_between_flanges, torsion};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
@@ -68,15 +69,6 @@ impl Shape {
         let flanges = graph.multiply(flange, square);
         let both = graph.add(web, flanges);
         graph.scale(1.0 / 12.0, both)
-    }
-
-    /// J = (2·b·tf³ + hw·tw³)/3, thin walls without fillets.
-    fn torsion(&self, graph: &mut Graph) -> NodeId {
-        let (flanges, web) = (
-            monomial(graph, 1.0 / 12.0, &[(self.b, 1.0), (self.t, 3.0)]),
-            monomial(graph, 1.0 / 3.0, &[(self.hw, 1.0), (self.tw, 3.0)]),
-        );
-        graph.add(flanges, web)
     }
 
     /// h − tf, between the flanges' middles: hw + tf.
@@ -183,26 +175,21 @@ impl Kind for HBeam {
                 let (iy, width) = (shape.iy(graph), graph.binary(Binary::Max, shape.tw, shape.b));
                 symmetric_modulus(graph, iy, width)
             }
-            "J" => shape.torsion(graph),
+            "J" => {
+                let tf = graph.scale(0.5, shape.t);
+                torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)])
+            }
             "Asx" => monomial(graph, 5.0 / 6.0, &[(shape.b, 1.0), (shape.t, 1.0)]),
             "Asy" => {
                 let tf = graph.scale(0.5, shape.t);
                 let middle = graph.add(shape.hw, tf);
                 graph.multiply(shape.tw, middle)
             }
-            // b·tf·(h − tf) + tw·hw²/4
             "Wplx" => {
-                let arm = shape.arm(graph);
-                let flanges = monomial(graph, 0.5, &[(shape.b, 1.0), (shape.t, 1.0), (arm, 1.0)]);
-                let web = monomial(graph, 0.25, &[(shape.tw, 1.0), (shape.hw, 2.0)]);
-                graph.add(flanges, web)
+                let (tf, arm) = (graph.scale(0.5, shape.t), shape.arm(graph));
+                plastic_between_flanges(graph, [shape.b, tf, arm], [shape.tw, shape.hw], 1.0)
             }
-            // tf·b²/2 + hw·tw²/4
-            "Wply" => {
-                let flanges = monomial(graph, 0.25, &[(shape.t, 1.0), (shape.b, 2.0)]);
-                let web = monomial(graph, 0.25, &[(shape.hw, 1.0), (shape.tw, 2.0)]);
-                graph.add(flanges, web)
-            }
+            "Wply" => on_axis(graph, &[(shape.b, shape.t), (shape.tw, shape.hw)]),
             // tf·b³·(h − tf)²/24
             "Iw" => {
                 let arm = shape.arm(graph);

@@ -4,22 +4,27 @@
 //! `new`, `bounds`, the schema and the reader ask the table. `toy` is such a file, for tests.
 //! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
 
+mod angle;
 mod box_beam;
 mod build;
+mod channel;
 mod circle;
 pub mod defaults;
 mod h_beam;
+mod i_section;
 mod outline;
 mod pieces;
 mod polygon;
 mod polyline;
 mod rectangle;
+mod rectangles;
 mod superellipse;
 mod tee;
 #[cfg(test)]
 mod toy;
 mod tube;
 
+use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
 pub use defaults::Defaults;
@@ -164,9 +169,9 @@ pub static KINDS: &[&dyn Kind] = &[
     &tube::Tube,
     &polygon::Polygon,
     &polyline::Polyline,
-    &pieces::ISection,
-    &pieces::Channel,
-    &pieces::Angle,
+    &i_section::ISection,
+    &channel::Channel,
+    &angle::Angle,
     #[cfg(test)]
     &toy::Diamond,
 ];
@@ -196,7 +201,7 @@ fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[Ring]) -> Opt
     let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
     let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);
     let (name, value) = all.find(|(_, value)| !(*value > 0.0 && value.is_finite()))?;
-    Some(format!("{name} is {value}; it must be positive"))
+    Some(format!("{name} is {}; it must be positive", plain(value)))
 }
 
 /// Every form of every kind, in the order [`form`] counts them.

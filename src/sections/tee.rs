@@ -2,6 +2,7 @@
 
 use super::build::{monomial, radius, symmetric_modulus};
 use super::defaults::{Defaults, FLANGE, FLANGE_THICKNESS, PROPORTION, WEB_AND_FLANGE, WEB_THICKNESS};
+use super::rectangles::{Band, on_axis, plastic_modulus, torsion};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
@@ -150,6 +151,7 @@ impl Kind for Tee {
             "Wx_top",
             "Wx_bottom",
             "Wy",
+            "Wplx",
             "Wply",
             "ix",
             "iy",
@@ -190,25 +192,18 @@ impl Kind for Tee {
                 let (iy, width) = (shape.iy(graph), graph.binary(Binary::Max, shape.tw, shape.b));
                 symmetric_modulus(graph, iy, width)
             }
-            "J" => {
-                let (flange, web) = (
-                    monomial(graph, 1.0 / 3.0, &[(shape.b, 1.0), (shape.tf, 3.0)]),
-                    monomial(graph, 1.0 / 3.0, &[(shape.hw, 1.0), (shape.tw, 3.0)]),
-                );
-                graph.add(flange, web)
-            }
+            "J" => torsion(graph, &[(shape.b, shape.tf), (shape.hw, shape.tw)]),
             "Asx" => monomial(graph, 5.0 / 6.0, &[(shape.b, 1.0), (shape.tf, 1.0)]),
             "Asy" => {
                 let half = graph.scale(0.5, shape.tf);
                 let depth = graph.add(shape.hw, half);
                 monomial(graph, 5.0 / 6.0, &[(shape.tw, 1.0), (depth, 1.0)])
             }
-            // (tf·b² + hw·tw²)/4
-            "Wply" => {
-                let flange = monomial(graph, 0.25, &[(shape.tf, 1.0), (shape.b, 2.0)]);
-                let web = monomial(graph, 0.25, &[(shape.hw, 1.0), (shape.tw, 2.0)]);
-                graph.add(flange, web)
+            "Wplx" => {
+                let (web, flange) = (Band { width: shape.tw, thickness: shape.hw }, Band { width: shape.b, thickness: shape.tf });
+                plastic_modulus(graph, &[web, flange])
             }
+            "Wply" => on_axis(graph, &[(shape.b, shape.tf), (shape.tw, shape.hw)]),
             "perimeter" => {
                 let sum = graph.add(shape.b, shape.h);
                 graph.scale(2.0, sum)

@@ -33,19 +33,24 @@ fn notes(notes: &[String], out: Out) -> Words {
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))
 }
 
+fn vertices(number: usize) -> String {
+    if number == 1 { "1 vertex".into() } else { format!("{number} vertices") }
+}
+
 fn welded(weld: &WeldReport, out: Out) -> Words {
-    writeln!(out, "welded: {} vertices joined, moved by up to {}", weld.joined, short(weld.largest_move))
+    writeln!(out, "welded: {} joined, moved by up to {}", vertices(weld.joined), short(weld.largest_move))
 }
 
 pub fn invariants(numbers: &Invariants, out: Out) -> Words {
     let Invariants { vertices, edges, faces, rib_edges, components, .. } = numbers;
-    writeln!(out, "{vertices} vertices, {edges} edges ({rib_edges} with ribs), {faces} faces, {components} connected")?;
-    if numbers.quads < *faces {
+    let (edges, faces, points) = (count(*edges, "edge"), count(*faces, "face"), self::vertices(*vertices));
+    writeln!(out, "{points}, {edges} ({rib_edges} with ribs), {faces}, {components} connected")?;
+    if numbers.quads < numbers.faces {
         let Invariants { triangles, quads, larger, .. } = numbers;
         let ends = if *quads > 0 { "; lines end where they break the grid" } else { "" };
         writeln!(out, "{triangles} triangles, {quads} quads, {larger} larger faces{ends}")?;
     }
-    if *faces == 0 {
+    if numbers.faces == 0 {
         writeln!(out, "lines without a surface")?;
         return range("edge lengths", &numbers.edge_lengths, out);
     }
@@ -83,13 +88,13 @@ pub fn reconstruct(report: &Staged<rebuilt::Report>, file: &Path, out: Out) -> W
     let stage = &report.stage;
     writeln!(
         out,
-        "{}: {} and {} vertices added, {} vertices snapped to vertices and {} to the surface, {} moves taken back",
+        "{}: {} and {} added, {} snapped to vertices and {} to the surface, {} taken back",
         file.display(),
         count(stage.faces_added, "face"),
-        stage.vertices_added,
-        stage.snapped_to_vertices,
+        vertices(stage.vertices_added),
+        vertices(stage.snapped_to_vertices),
         stage.snapped_to_surface,
-        stage.undone
+        count(stage.undone, "move")
     )?;
     let [before, after] = stage.euler_characteristic;
     writeln!(out, "Euler characteristic {before} before, {after} after; holes left: {}", stage.unfilled_loops)?;
@@ -128,7 +133,13 @@ pub fn trace(report: &TraceReport, file: &Path, out: Out) -> Words {
         Rule::Edges => "one per edge",
         _ => "by straightest continuation, and as the file gives them",
     };
-    writeln!(out, "{} {which}edges, length {}; {rule}, ending at {}", report.edges, short(report.length), places(report.ends))?;
+    writeln!(
+        out,
+        "{}, length {}; {rule}, ending at {}",
+        count(report.edges, &format!("{which}edge")),
+        short(report.length),
+        places(report.ends)
+    )?;
     notes(&report.notes, out)?;
     for crossing in report.self_crossings.iter().take(SHOWN) {
         let vertices = listing(crossing.vertices.iter().map(u32::to_string), SHOWN);

@@ -47,7 +47,7 @@ fn parenthesised(cursor: &Cursor) -> bool {
 fn comparison(cursor: &mut Cursor) -> Parsed<Condition> {
     let left = operand(cursor)?;
     let Some(sign) = comparison_sign(cursor)? else {
-        return Err(cursor.unexpected("an operator or a comparison").help("as in h > 0.2 or line == \"L0\""));
+        return Err(cursor.unexpected("an operator or a comparison").or_help("as in h > 0.2 or line == \"L0\""));
     };
     let right = operand(cursor)?;
     let span = cursor.span();

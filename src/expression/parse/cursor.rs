@@ -109,7 +109,11 @@ impl<'a> Cursor<'a> {
         };
         let error = SyntaxError::new(span, format!("expected {wanted}, found `{}`", &self.text[span.start..span.end]));
         let operator = wanted.contains("operator");
+        let after_number = self.tokens[..self.at].last().is_some_and(|token| matches!(token.kind, Kind::Number(_)));
         match found {
+            Kind::Name(_) if operator && after_number => {
+                error.help("a product is written with `*`; numbers carry no units: all are in the file's own")
+            }
             Kind::Number(_) | Kind::Name(_) | Kind::Symbol("(") if operator => error.help("a product is written with `*`"),
             Kind::Symbol(",") if operator => error.help("a decimal is written with a point: 0.5"),
             Kind::Symbol("<" | ">" | "<=" | ">=" | "==" | "!=" | "=") => error.help("a comparison cannot stand here"),

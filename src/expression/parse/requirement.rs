@@ -14,7 +14,7 @@ const FORMS: &str = "write a <= b, a >= b, a == b or lo <= a <= hi";
 pub(super) fn requirement(cursor: &mut Cursor) -> Parsed<Requirement> {
     let first = expression(cursor)?;
     let Some((sign, place, second)) = comparison(cursor)? else {
-        return Err(cursor.unexpected("an operator or a comparison").help(FORMS));
+        return Err(cursor.unexpected("an operator or a comparison").or_help(FORMS));
     };
     let Some((next, next_place, third)) = comparison(cursor)? else {
         return Ok(Requirement::Two { comparison: sign, left: first, right: second });

@@ -3,6 +3,7 @@
 mod crossings;
 mod gradient;
 mod moments;
+mod plastic;
 mod validity;
 
 pub use gradient::VertexGradient;

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 pub use check::{CheckReport, check};
 pub use lines::{RibsReport, ribs_folder, slice_file, trace_file};
-pub use solids::{plot, solids};
+pub use solids::solids;
 
 use super::closest::Surface;
 use super::formats::{self, FormatError, ending};
@@ -23,7 +23,7 @@ use super::network::NetworkError;
 use super::section::{self, PieceReport, Plane};
 use super::stations::StationError;
 use super::weld::{WeldReport, weld};
-use super::{Defects, PolygonMesh, QuadMesh, generate, reconstruct, ribs, smooth};
+use super::{Defects, PolygonMesh, QuadMesh, generate, reconstruct, ribs, rounded, smooth};
 
 /// Whatever stops a command; the message says what, where and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -183,13 +183,14 @@ fn section_notes(mesh: &PolygonMesh, plane: &Plane, sum: f64, area: f64) -> Vec<
     if sum == 0.0 {
         let distances = || mesh.vertices.iter().map(|p| plane.distance(p));
         let (low, high) = (distances().fold(f64::INFINITY, f64::min), distances().fold(f64::NEG_INFINITY, f64::max));
-        notes.push(format!("the plane misses the solid, which lies between {low:.6} and {high:.6} along its normal from it"));
+        let [low, high] = [low, high].map(rounded);
+        notes.push(format!("the plane misses the solid, which lies between {low} and {high} along its normal from it"));
     }
     if sum > area {
         notes.push(format!(
-            "solids overlap: the pieces have {sum:.6} together, {:.6} of it is covered more than once, and the area is that of \
-             their union",
-            sum - area
+            "solids overlap: the pieces have {} together, {} of it is covered more than once, and the area is that of their union",
+            rounded(sum),
+            rounded(sum - area)
         ));
     }
     notes

@@ -1,10 +1,10 @@
-//! After the solve: sized ribs as solids and pictures.
+//! After the solve: sized ribs as solids.
 
 use std::path::Path;
 
 use super::{Outcome, write_file, write_report};
 use crate::mesh::formats::{self, DxfLine, Node, ending, write_dxf, write_glb};
-use crate::mesh::plot::{GREY, Stroke, shade, svg};
+use crate::mesh::shade::{GREY, shade};
 use crate::mesh::solids::{Report, SizedRib, SolidError, build, loft, write_tags};
 
 /// `solve --solids OUT`: builds and writes the solids, their report beside them, and for formats without cell data the tags
@@ -60,32 +60,4 @@ fn line(rib: &SizedRib, tag_names: &[String]) -> DxfLine {
     let finite = numbers(rib, tag_names).into_iter().filter(|(_, value)| value.is_finite());
     let data = std::iter::once(name).chain(finite).collect();
     DxfLine { layer: rib.geometry.line.clone(), colour, ends: rib.geometry.ends, data }
-}
-
-/// `solve --plot OUT.svg`: the rib network, drawn with the heights of its rings.
-///
-/// # Errors
-/// A file that cannot be written.
-pub fn plot(ribs: &[SizedRib], title: &str, out: &Path) -> Outcome<()> {
-    let strokes: Vec<Stroke> = ribs.iter().map(stroke).collect();
-    write_file(out, |file| file.write_all(svg(&strokes, title).as_bytes()))
-}
-
-fn stroke(rib: &SizedRib) -> Stroke {
-    let height = |end: usize| {
-        let heights = || rib.rings[end].iter().flatten().map(|p| p[1]);
-        heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
-    };
-    let heights = [height(0), height(1)];
-    let label = match rib.utilisation {
-        Some(u) => format!(
-            "{}: heights {:.4}, {:.4}, area {:.4}, utilisation {u:.3}",
-            rib.geometry.name,
-            heights[0],
-            heights[1],
-            rib.mean_area()
-        ),
-        None => format!("{}: heights {:.4}, {:.4}, area {:.4}", rib.geometry.name, heights[0], heights[1], rib.mean_area()),
-    };
-    Stroke { ends: rib.geometry.ends, heights, area: rib.mean_area(), utilisation: rib.utilisation, label }
 }

@@ -33,7 +33,6 @@ fn from_mesh_to_problem_to_solids() {
             assert!((report.volume / report.prismatoid_volume - 1.0).abs() < 1e-12 && report.largest_difference < 1e-9);
             assert!(report.overlapping_joints > 0 && report.overlap_volume < report.volume);
         }
-        plot(&sized, name, &at(&format!("{name}.svg"))).unwrap();
     }
 }
 

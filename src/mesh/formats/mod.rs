@@ -51,6 +51,9 @@ pub enum FormatError {
     /// One of the above, in this file.
     #[error("{path}: {cause}")]
     In { path: String, cause: Box<FormatError> },
+    /// Nothing in it.
+    #[error("{path}: the file is empty")]
+    Empty { path: String },
     /// An ending that names no format.
     #[error("{path}: cannot tell the format from the ending; expected one of {expected}")]
     Ending { path: String, expected: &'static str },
@@ -82,6 +85,9 @@ pub fn read(path: &Path) -> Result<PolygonMesh, FormatError> {
         return Err(FormatError::Ending { path: path.display().to_string(), expected });
     }
     let bytes = files::read(path).map_err(|cause| FormatError::io(path, cause))?;
+    if bytes.is_empty() {
+        return Err(FormatError::Empty { path: path.display().to_string() });
+    }
     let mesh = match kind.as_str() {
         "obj" => read_obj(bytes.as_slice()),
         "ply" => read_ply(bytes.as_slice()),

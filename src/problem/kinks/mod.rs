@@ -16,9 +16,6 @@ use super::{Constraint, Limit, Problem, Scope, Sense};
 use crate::expression::operators::{Binary, Fold, Unary};
 use restate::Restating;
 
-/// Definitions looked into one inside another, in search of kinks.
-const DEFINITIONS: usize = 16;
-
 /// Items up to which a repeated constraint is written out where its kinks need variables of their own.
 const MOST_ITEMS: usize = 10_000;
 
@@ -77,26 +74,12 @@ impl Problem {
 
     /// What has a min, max or abs: the objective, or constraints by name.
     pub fn kinks(&self) -> Vec<String> {
-        let objective = self.bends(&self.objective, 0).then(|| "the objective".to_owned());
-        let bent = |row: &&Constraint| self.bends(&row.left, 0) || row.right.formulas().any(|formula| self.bends(formula, 0));
+        let known = definitions_with_kinks(self);
+        let bent = |formula: &Formula| has_kinks(formula, &known);
+        let objective = bent(&self.objective).then(|| "the objective".to_owned());
+        let bent = |row: &&Constraint| bent(&row.left) || row.right.formulas().any(bent);
         let rows = self.constraints.iter().filter(bent).map(|row| format!("`{}`", row.name));
         objective.into_iter().chain(rows).collect()
-    }
-
-    /// Whether there is a kink in a formula or the definitions it uses.
-    fn bends(&self, formula: &Formula, depth: usize) -> bool {
-        let go = |formula: &Formula| self.bends(formula, depth);
-        is_kink(formula)
-            || match formula {
-                Formula::Unary(_, inner) | Formula::Profile(_, inner) => go(inner),
-                Formula::Binary(_, left, right) => go(left) || go(right),
-                Formula::Fold(_, list) => list.iter().any(go),
-                Formula::Over { body, .. } => go(body),
-                Formula::Definition(d) if depth < DEFINITIONS => {
-                    self.definitions.get(*d as usize).is_some_and(|(_, inner)| self.bends(inner, depth + 1))
-                }
-                _ => false,
-            }
     }
 
     /// A formula with auxiliaries (variables from `first` on) replaced by what they stand for.
@@ -155,6 +138,33 @@ fn named(constraint: &Constraint, pieces: Vec<Formula>) -> Vec<Constraint> {
     };
     let one = |(number, left)| Constraint { name: name(number), left, ..constraint.clone() };
     pieces.into_iter().enumerate().map(one).collect()
+}
+
+/// Which definitions have a kink, of their own or by others they use.
+fn definitions_with_kinks(problem: &Problem) -> Vec<bool> {
+    let mut known = vec![false; problem.definitions.len()];
+    // They stand in any order and are free of cycles: at most as many rounds as definitions settle them.
+    loop {
+        let next: Vec<bool> = problem.definitions.iter().map(|(_, formula)| has_kinks(formula, &known)).collect();
+        if next == known {
+            return known;
+        }
+        known = next;
+    }
+}
+
+/// Whether a kink stands anywhere in a formula, given which definitions have one.
+fn has_kinks(formula: &Formula, definitions: &[bool]) -> bool {
+    let go = |inner: &Formula| has_kinks(inner, definitions);
+    match formula {
+        _ if is_kink(formula) => true,
+        Formula::Definition(d) => definitions.get(*d as usize).copied().unwrap_or(false),
+        Formula::Unary(_, inner) | Formula::Profile(_, inner) => go(inner),
+        Formula::Binary(_, left, right) => go(left) || go(right),
+        Formula::Fold(_, list) => list.iter().any(go),
+        Formula::Over { body, .. } => go(body),
+        _ => false,
+    }
 }
 
 /// Whether an operation has a kink: of absolute values and of the greatest, or smallest, of several.

@@ -42,11 +42,11 @@ pub(super) struct Restating {
 
 impl Restating {
     pub fn new(problem: Problem) -> Self {
-        let mut restating = Restating {
+        Restating {
             first: problem.variables.lower.len(),
             rows: Vec::new(),
             ranges: Ranges::default(),
-            definition_has_kinks: vec![false; problem.definitions.len()],
+            definition_has_kinks: super::definitions_with_kinks(&problem),
             definition_level: vec![0; problem.definitions.len()],
             definitions: HashMap::new(),
             definition_pieces: HashMap::new(),
@@ -62,30 +62,12 @@ impl Restating {
                 right: Limit::AtMost(Formula::default()),
             },
             problem,
-        };
-        // Definitions stand in any order and are free of cycles: at most as many rounds as definitions settle them.
-        while restating.settle_definitions() {}
-        restating
-    }
-
-    fn settle_definitions(&mut self) -> bool {
-        let known: Vec<bool> = self.problem.definitions.iter().map(|(_, formula)| self.has_kinks(formula)).collect();
-        let changed = known != self.definition_has_kinks;
-        self.definition_has_kinks = known;
-        changed
+        }
     }
 
     /// Whether a kink stands anywhere in a formula.
     pub fn has_kinks(&self, formula: &Formula) -> bool {
-        match formula {
-            _ if is_kink(formula) => true,
-            Formula::Definition(d) => self.definition_has_kinks.get(*d as usize).copied().unwrap_or(false),
-            Formula::Unary(_, inner) => self.has_kinks(inner),
-            Formula::Binary(_, left, right) => self.has_kinks(left) || self.has_kinks(right),
-            Formula::Fold(_, list) => list.iter().any(|one| self.has_kinks(one)),
-            Formula::Over { body, .. } => self.has_kinks(body),
-            _ => false,
-        }
+        super::has_kinks(formula, &self.definition_has_kinks)
     }
 
     /// A formula that stands `place`, where a larger value is worse (`upward`) or a smaller one.

@@ -30,7 +30,7 @@ pub enum Ink {
 }
 
 impl Ink {
-    fn class(self) -> &'static str {
+    pub(super) fn class(self) -> &'static str {
         match self {
             Ink::Strong => "strong",
             Ink::Middle => "middle",
@@ -40,7 +40,7 @@ impl Ink {
     }
 
     /// On white, and on a dark ground.
-    fn colours(self) -> [&'static str; 2] {
+    pub(super) fn colours(self) -> [&'static str; 2] {
         match self {
             Ink::Strong => ["#1a1a1a", "#e8e8e8"],
             Ink::Middle => ["#767676", "#a0a8b0"],
@@ -74,7 +74,7 @@ impl Style {
     }
 }
 
-/// A picture being drawn, in pixels from the upper left corner.
+/// A picture being drawn, in pixels from the upper left corner. What has no place (sizes beyond all numbers) is left out.
 pub struct Canvas {
     svg: String,
     width: f64,
@@ -114,6 +114,9 @@ impl Canvas {
 
     /// A straight line from (x1, y1) to (x2, y2).
     pub fn line(&mut self, [x1, y1, x2, y2]: [f64; 4], ink: Ink) {
+        if ![x1, y1, x2, y2].iter().all(|at| at.is_finite()) {
+            return;
+        }
         let (colour, class) = (ink.colours()[0], ink.class());
         let _ = writeln!(
             self.svg,
@@ -142,6 +145,9 @@ impl Canvas {
     }
 
     fn words(&mut self, [x, y]: [f64; 2], anchor: &str, content: &str, ink: Ink, turn: &str) {
+        if !(x.is_finite() && y.is_finite()) {
+            return;
+        }
         let (colour, class, content) = (ink.colours()[0], ink.class(), escaped(content));
         let _ = writeln!(
             self.svg,
@@ -166,8 +172,28 @@ impl Canvas {
         );
     }
 
+    /// Further rules for classes of [`Canvas::shape`].
+    pub fn styles(&mut self, rules: &str) {
+        let _ = write!(self.svg, "<style>\n{rules}</style>\n");
+    }
+
+    /// An area of one colour on white and of another by its class on dark grounds; viewers show the label under the pointer.
+    pub fn shape(&mut self, data: &str, [colour, class]: [&str; 2], opacity: f64, label: &str) {
+        let _ = write!(self.svg, "<path d=\"{data}\" fill=\"{colour}\" class=\"{class}\"");
+        if opacity < 1.0 {
+            let _ = write!(self.svg, " fill-opacity=\"{opacity}\"");
+        }
+        let _ = match label {
+            "" => writeln!(self.svg, "/>"),
+            label => writeln!(self.svg, "><title>{}</title></path>", escaped(label)),
+        };
+    }
+
     /// A dot; an empty one stands for a value that lies beyond the axis.
     pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, ink: Ink, full: bool) {
+        if !(x.is_finite() && y.is_finite()) {
+            return;
+        }
         let (colour, class) = (ink.colours()[0], ink.class());
         let drawn = match full {
             true => format!("fill=\"{colour}\" class=\"{class} a\""),
@@ -239,6 +265,16 @@ mod tests {
         let svg = Canvas::new(100.0, 50.0, "a<b\u{1b}", "what").finish();
         assert!(svg.contains("prefers-color-scheme: dark") && svg.contains(".k7.s"));
         assert!(svg.contains("<title>a&lt;b\u{fffd}</title>") && svg.contains("<desc>what</desc>"));
+    }
+
+    #[test]
+    fn what_has_no_place_is_left_out() {
+        let mut canvas = Canvas::new(100.0, 50.0, "title", "shown");
+        canvas.line([0.0, f64::NAN, 1.0, 1.0], Ink::Faint);
+        canvas.text(f64::INFINITY, 0.0, "start", "here");
+        canvas.dot([0.0, f64::NEG_INFINITY], 3.0, Ink::Strong, true);
+        let svg = canvas.finish();
+        assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains("here"), "{svg}");
     }
 
     #[test]

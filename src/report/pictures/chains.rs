@@ -38,6 +38,12 @@ pub(super) fn chains(problem: &Problem) -> Vec<Chain> {
     by_line(problem).unwrap_or_else(|| by_sections(problem))
 }
 
+/// The length of the longest chain, by the file's own lengths.
+pub fn longest_line(problem: &Problem) -> Option<f64> {
+    let length = |chain: &Chain| chain.ribs.iter().map(|&r| problem.ribs.length[r]).sum::<f64>();
+    chains(problem).iter().map(length).reduce(f64::max)
+}
+
 /// By the datum `line`, where every rib has one.
 fn by_line(problem: &Problem) -> Option<Vec<Chain>> {
     let column = problem.ribs.data.iter().position(|column| column.name == LINE)?;

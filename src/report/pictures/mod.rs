@@ -1,4 +1,5 @@
-//! Pictures of a run as SVG: how the backends converged, the sections before and after, the lines of ribs and their profiles.
+//! Pictures of a run as SVG: how the backends converged, the sections before and after, the lines of ribs, their profiles, the
+//! network in space.
 
 mod axes;
 pub(super) mod canvas;
@@ -6,12 +7,15 @@ mod chains;
 mod convergence;
 mod cross_sections;
 mod elevation;
+mod network;
 pub mod performance_profile;
 mod profiles;
 
+pub use chains::longest_line;
 pub use convergence::{Trace, convergence};
 pub use cross_sections::{cross_section, cross_sections};
 pub use elevation::elevation;
+pub use network::{Load, network};
 pub use profiles::profiles;
 
 use super::About;

@@ -23,11 +23,11 @@ pub fn profiles(problem: &Problem, about: &About, start: &[f64], answer: &[f64])
     }
     let more =
         if problem.profiles.len() > count { format!(": the first {count} of {}", problem.profiles.len()) } else { String::new() };
-    let mut canvas = Canvas::new(760.0, 70.0 + 250.0 * count as f64, &about.title, &format!("Profiles along the line{more}"));
+    let mut canvas = Canvas::new(760.0, 60.0 + 250.0 * count as f64, &about.title, &format!("Profiles along the line{more}"));
     before_and_after(&mut canvas);
-    canvas.path("M380 38h24", CONTROL);
-    canvas.dot([392.0, 38.0], 3.0, Ink::Curve(1), true);
-    canvas.text(412.0, 42.0, "start", "control values of the answer");
+    canvas.path("M340 38h24", CONTROL);
+    canvas.dot([352.0, 38.0], 3.0, Ink::Curve(1), true);
+    canvas.text(372.0, 42.0, "start", "control values of the answer");
     for (at, profile) in problem.profiles.iter().take(MOST).enumerate() {
         let dots = controls(profile, answer);
         let [before, after] = [start, answer].map(|x| curve(profile, x));

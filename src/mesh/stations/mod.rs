@@ -1,85 +1,17 @@
-//! Slicing rib lines into stations and segments (docs/formulas.md 3.2).
+//! Slicing rib lines into stations and segments (note 3.2).
 //!
 //! Every edge of a line is cut into equal segments no longer than asked, so mesh vertices are always stations. The frame of
 //! a station: x along the line (at a vertex, the bisector of the two directions), z the surface's normal made perpendicular
 //! to x, y = z × x. A section's x is the frame's y, its y the frame's z.
 
+mod frame;
+
 use serde::Serialize;
 
+pub use frame::{Frame, Frames, Support};
+
 use super::trace::Line;
-use super::{NONE, QuadMesh, Vector, unit};
-
-/// A right-handed orthonormal frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    /// Along the rib.
-    pub x: Vector,
-    /// Across it, in the surface.
-    pub y: Vector,
-    /// Out of the surface.
-    pub z: Vector,
-}
-
-impl Frame {
-    /// The frame with this tangent and, as nearly as possible, this normal; `None` where either is zero or they are parallel
-    /// (to within 1e−6 of a radian).
-    pub fn new(tangent: Vector, normal: Vector) -> Option<Frame> {
-        let (x, normal) = (unit(tangent)?, unit(normal)?);
-        let across = normal.cross(&x);
-        let y = unit(across).filter(|_| across.norm() > 1e-6)?;
-        Some(Frame { x, y, z: x.cross(&y) })
-    }
-
-    /// The frame of a line without a surface: z as near to the global z as can be; of a line that is vertical to within a
-    /// thousandth, to the global x.
-    pub fn upright(tangent: Vector) -> Option<Frame> {
-        let x = unit(tangent)?;
-        Frame::new(x, if x.x.hypot(x.y) < 1e-3 { Vector::x() } else { Vector::z() })
-    }
-}
-
-/// Where the frames of a line come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Frames {
-    /// A smooth surface: a line without frames, or one where they turn over, is a mistake.
-    Smooth,
-    /// Any faces: where their normals give no frame, the line is upright.
-    Faces,
-    /// Nothing but the line itself: it is upright.
-    Upright,
-}
-
-/// What lines run over: points, and the surface's normals there.
-pub trait Support {
-    /// Where vertex `v` is.
-    fn position(&self, v: u32) -> Vector;
-    /// The unit normal of the surface there, if there is one.
-    fn normal(&self, v: u32) -> Option<Vector>;
-    /// The frame of a line with this tangent, where the surface has this normal.
-    fn frame(&self, tangent: Vector, normal: Option<Vector>) -> Option<Frame> {
-        Frame::new(tangent, normal?)
-    }
-    /// Where frames come from.
-    fn frames(&self) -> Frames {
-        Frames::Smooth
-    }
-    /// Whether only flagged edges carry ribs.
-    fn has_flags(&self) -> bool;
-}
-
-impl Support for QuadMesh {
-    fn position(&self, v: u32) -> Vector {
-        self.positions[v as usize]
-    }
-
-    fn normal(&self, v: u32) -> Option<Vector> {
-        self.normal_at(v)
-    }
-
-    fn has_flags(&self) -> bool {
-        QuadMesh::has_flags(self)
-    }
-}
+use super::{NONE, Vector, unit};
 
 /// A point on a rib line.
 #[derive(Debug, Clone, PartialEq)]
@@ -265,56 +197,4 @@ pub fn report(lines: &[StationLine]) -> StationReport {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::{generate, trace::trace};
-
-    fn sliced(mesh: crate::mesh::PolygonMesh, longest: f64) -> (QuadMesh, Vec<StationLine>) {
-        let mesh = QuadMesh::new(mesh).unwrap();
-        let lines = slice(&mesh, &trace(&mesh), longest).unwrap();
-        (mesh, lines)
-    }
-
-    #[test]
-    fn segments_cover_the_edges_and_keep_their_vertices() {
-        let (mesh, lines) = sliced(generate::dome(8, 6.0, 4.0), 0.4);
-        let report = report(&lines);
-        let total: f64 = (0..mesh.edge_count() as u32).map(|e| mesh.edge_length(e)).sum();
-        assert!((report.length / total - 1.0).abs() < 1e-13);
-        assert!(report.longest <= 0.4 && report.largest_turn < 45.0, "{report:?}");
-        let mut kept: Vec<u32> = lines.iter().flat_map(|line| &line.stations).map(|s| s.vertex).filter(|&v| v != NONE).collect();
-        kept.sort_unstable();
-        kept.dedup();
-        assert_eq!(kept.len(), mesh.vertex_count());
-    }
-
-    #[test]
-    fn frames_are_orthonormal_and_right_handed() {
-        let (_, lines) = sliced(generate::shell(4, 6), 0.5);
-        for station in lines.iter().flat_map(|line| &line.stations) {
-            let Frame { x, y, z } = station.frame;
-            assert!((x.cross(&y) - z).norm() < 1e-14 && x.dot(&y).abs() < 1e-14 && (z.norm() - 1.0).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn a_closed_line_ends_in_its_first_frame() {
-        let (_, lines) = sliced(generate::cube(3), 1.0);
-        let closed = lines.iter().find(|line| line.closed).unwrap();
-        let (first, last) = (closed.stations.first().unwrap(), closed.stations.last().unwrap());
-        assert_eq!((first.position, first.frame), (last.position, last.frame));
-    }
-
-    #[test]
-    fn a_normal_that_cancels_is_an_error() {
-        // Two faces folded flat onto one another: their vector areas cancel along the common edge.
-        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 2 1 6 5\n";
-        let mesh = crate::mesh::formats::read_obj(text.as_bytes());
-        let mut mesh = mesh.unwrap();
-        mesh.vertices[4].z = 1e-17;
-        mesh.vertices[5].z = 1e-17;
-        let mesh = QuadMesh::new(mesh).unwrap();
-        let error = slice(&mesh, &trace(&mesh), 1.0).unwrap_err();
-        assert!(matches!(error, StationError::NoFrame { .. }), "{error}");
-    }
-}
+mod tests;
