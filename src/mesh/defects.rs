@@ -1,4 +1,4 @@
-//! What keeps a mesh from being a clean quad mesh (docs/meshes.md). All of it, with faces and vertices.
+//! What keeps a mesh from being a clean quad mesh (note 3). All of it, with faces and vertices.
 
 use std::fmt;
 

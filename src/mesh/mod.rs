@@ -1,5 +1,5 @@
 //! Rib meshes and networks: read, check, reconstruct, smooth, trace, slice; from rib lines to a problem folder and on to solids
-//! (docs/formulas.md, part 3).
+//! (chapter 3 of the note, as docs/meshes.md reads it).
 //!
 //! In reading order: [`PolygonMesh`] is what a file holds; [`QuadMesh`] is that, proved to be a quad mesh free of defects;
 //! [`graph::Graph`] the rib edges of any other; the stages take one or another. Every stage is deterministic and reports its invariants as a serialisable value.

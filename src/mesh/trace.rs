@@ -1,4 +1,4 @@
-//! Tracing edges to rib lines (docs/formulas.md 3.5).
+//! Tracing edges to rib lines (note 3.5).
 //!
 //! At a vertex two edges are partners where a line runs straight on: opposite edges of an interior vertex of valence 4, the
 //! two boundary edges of a boundary vertex of valence 3. Partnership is mutual, so the lines partition the edges.

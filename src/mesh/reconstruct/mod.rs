@@ -1,4 +1,4 @@
-//! Reconstruction of a quad rib mesh (docs/formulas.md 3.1): fill concave notches and holes, snap to the original surface.
+//! Reconstruction of a quad rib mesh (note 3.1): fill concave notches and holes, snap to the original surface.
 //!
 //! What holds, whatever the mesh: no vertex ends farther from where it began than the tolerance, and one that lies on an
 //! original vertex stays; no face is attached where the original ends; nothing comes out that `QuadMesh` would not take; a

@@ -1,4 +1,4 @@
-//! From a rib network to a problem folder: `problem.toml`, `sections.csv`, `ribs.csv` (docs/problem-file.md, `[tables]`) and
+//! From a rib network to a problem folder: `problem.toml`, `sections.csv`, `ribs.csv` (`[tables]`) and
 //! `geometry.csv` (where the ribs lie, for solids and pictures).
 //!
 //! Every line counts as a simply supported beam under a line load q: its sag at midspan, by the unit-load method

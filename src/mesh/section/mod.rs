@@ -1,4 +1,4 @@
-//! Plane sections of a solid (docs/formulas.md 3.2): closed loops, polygons with holes, their properties (2.5).
+//! Plane sections of a solid (note 3.2): closed loops, polygons with holes, their properties (2.5).
 //!
 //! Vertices exactly on the plane count as above it, as if the plane lay lower by less than any number; so every crossing is
 //! an edge with ends on both sides, and loops close. A face wholly in the plane is an error: the section jumps there.

@@ -1,4 +1,4 @@
-//! Smoothing (docs/formulas.md 3.3).
+//! Smoothing (note 3.3).
 //!
 //! The note's step (3.3.1) moves every vertex to the mean of its neighbours, all at once. On a quad grid the checkerboard
 //! mode is an eigenvector of that step with eigenvalue −1: it never dies out. With a relaxation λ < 1 the eigenvalue is

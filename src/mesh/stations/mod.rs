@@ -1,4 +1,4 @@
-//! Slicing rib lines into stations and segments (docs/formulas.md 3.2).
+//! Slicing rib lines into stations and segments (note 3.2).
 //!
 //! Every edge of a line is cut into equal segments no longer than asked, so mesh vertices are always stations. The frame of
 //! a station: x along the line (at a vertex, the bisector of the two directions), z the surface's normal made perpendicular
