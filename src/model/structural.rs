@@ -27,7 +27,7 @@ impl Assembled {
     }
 
     /// The model that points are judged on: with its states beside the design where dense derivatives of the design alone would be
-    /// larger than [`LARGEST_DENSE`]. Both say the same of a point, see [`Lifted`].
+    /// larger than `LARGEST_DENSE`. Both say the same of a point, see [`Lifted`].
     pub fn judge(&self) -> &dyn Model {
         match self {
             Assembled::Structure(model) if is_large(model.lifted()) => model.lifted(),

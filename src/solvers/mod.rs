@@ -5,7 +5,7 @@
 //! | [`interior_point`] | primal-dual interior point with a filter line search, sparse: every model |
 //! | [`block_interior_point`] | many small independent components side by side, each by a small dense interior point |
 //! | [`augmented_lagrangian`] | bounds-only subproblems by a trust region, multipliers moved in between |
-//! | [`barrier`] | what both interior points do alike |
+//! | `barrier` | what both interior points do alike |
 //! | [`progress`] | what an iteration leaves behind, and how a run ends |
 
 pub mod augmented_lagrangian;

@@ -3,9 +3,9 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`faces`] | φ minimised on one face of the box after another |
-//! | [`face`] | φ over the variables that are not at rest on a bound |
-//! | [`trust_region`], [`steihaug`] | the minimisation on one face, and its steps by conjugate gradients |
+//! | `faces` | φ minimised on one face of the box after another |
+//! | `face` | φ over the variables that are not at rest on a bound |
+//! | `trust_region`, `steihaug` | the minimisation on one face, and its steps by conjugate gradients |
 
 mod face;
 mod faces;

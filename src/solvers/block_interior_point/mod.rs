@@ -3,10 +3,10 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`arena`] | the iterates of all components |
-//! | [`frame`] | one component, scaled, with slacks |
-//! | [`step`], [`newton`], [`search`], [`barrier`] | the iterations of the small interior point |
-//! | [`crossover`] | from the barrier's path to the minimum itself |
+//! | `arena` | the iterates of all components |
+//! | `frame` | one component, scaled, with slacks |
+//! | `step`, `newton`, `search`, `barrier` | the iterations of the small interior point |
+//! | `crossover` | from the barrier's path to the minimum itself |
 //!
 //! Components the small solver cannot do go to the sparse interior point, each as a model of its own. Nothing depends on the
 //! number of threads.

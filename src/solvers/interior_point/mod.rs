@@ -3,20 +3,20 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`parameters`] | every number that is a choice, by the paper's symbols |
-//! | [`form`], [`scaling`] | the problem with slacks, without fixed variables, scaled |
-//! | [`engine`] | one iteration |
-//! | [`iterate`] | a primal-dual point and its optimality error |
-//! | [`begin`], [`start`] | the first iterate |
-//! | [`barrier`] | the logarithmic barrier |
-//! | [`kkt`] | the Newton system and its inertia |
-//! | [`predictor`] | steps of large problems without a line search, while they do well |
-//! | [`line_search`], [`filter`] | which steps are taken |
-//! | [`restoration`], [`elastic`] | the way back to feasibility, or to the least violation |
-//! | [`watchdog`] | full steps on trial where the filter cuts too many short |
-//! | [`saddle`] | leaving stationary points that are no minima |
-//! | [`polish`] | the last digits, on the active set |
-//! | [`attempts`] | a second run in better scales, or from elsewhere |
+//! | `parameters` | every number that is a choice, by the paper's symbols |
+//! | `form`, `scaling` | the problem with slacks, without fixed variables, scaled |
+//! | `engine` | one iteration |
+//! | `iterate` | a primal-dual point and its optimality error |
+//! | `begin`, `start` | the first iterate |
+//! | `barrier` | the logarithmic barrier |
+//! | `kkt` | the Newton system and its inertia |
+//! | `predictor` | steps of large problems without a line search, while they do well |
+//! | `line_search`, `filter` | which steps are taken |
+//! | `restoration`, `elastic` | the way back to feasibility, or to the least violation |
+//! | `watchdog` | full steps on trial where the filter cuts too many short |
+//! | `saddle` | leaving stationary points that are no minima |
+//! | `polish` | the last digits, on the active set |
+//! | `attempts` | a second run in better scales, or from elsewhere |
 
 mod attempts;
 mod barrier;
