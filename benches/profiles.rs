@@ -1,7 +1,7 @@
 //! `ribopt compare` with every algorithm of NLopt's and argmin's over problems/ and, where it is there, the benchmark collection;
 //! Dolan–Moré profiles as CSV and SVG in benches/results/profiles.
 //!
-//! `RIBOPT_BENCHMARKS` names the folder with benchmarks.json and to_toml.py; default: ../shared/benchmarks.
+//! `RIBOPT_BENCHMARKS` names the folder with benchmarks.json and to_toml.py; without it problems/ are run alone.
 
 use std::env;
 use std::fs;
@@ -14,7 +14,7 @@ const SECONDS_PER_PROBLEM: &str = "10";
 fn main() -> ExitCode {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut files = problem_files(Path::new("problems"));
-    let collection = PathBuf::from(env::var_os("RIBOPT_BENCHMARKS").unwrap_or_else(|| "../shared/benchmarks".into()));
+    let collection = PathBuf::from(env::var_os("RIBOPT_BENCHMARKS").unwrap_or_default());
     if collection.join("benchmarks.json").exists() {
         let mut convert = Command::new("python3");
         convert.arg(collection.join("to_toml.py")).arg(collection.join("benchmarks.json")).arg(folder.path());
@@ -23,7 +23,7 @@ fn main() -> ExitCode {
         // Written wrong on purpose: its bounds cross.
         files.extend(problem_files(folder.path()).into_iter().filter(|path| !path.ends_with("inf_bounds.toml")));
     } else {
-        eprintln!("no collection in {}: problems/ alone", collection.display());
+        eprintln!("no collection named by RIBOPT_BENCHMARKS: problems/ alone");
     }
     let mut compare = Command::new(env!("CARGO_BIN_EXE_ribopt"));
     compare.args(["compare", "--profile", "benches/results/profiles", "--max-seconds", SECONDS_PER_PROBLEM]).args(files);

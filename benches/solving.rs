@@ -36,7 +36,7 @@ fn problem(bencher: Bencher, solve: Solve) {
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
-        class: subject.class,
+        class: subject.class(),
         settings: &subject.settings,
         start: &subject.model().meta().start,
         start_multipliers: None,

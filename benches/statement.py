@@ -82,7 +82,7 @@ class Statement:
 
     def violation(self, x):
         """The largest relative violation: of a row over max(|limit|, largest slope per relative change of a variable), of a
-        bound over the size of the variable (SPEC 4)."""
+        bound over the size of the variable (docs/certificate.md)."""
         size = [max(abs(v), abs(s)) or 1.0 for v, s in zip(x, self.start)]
         worst = max([0.0] + [max(low - v, v - high) / d for v, low, high, d in zip(x, self.lower, self.upper, size)])
         values, slopes = self.g(x).full().ravel(), self.jacobian(x).full()
@@ -97,7 +97,7 @@ class Statement:
 
 
 def middle(lower, upper):
-    """The start of a variable that names none (SPEC 1)."""
+    """The start of a variable that names none (docs/problem-file.md)."""
     if math.isfinite(lower) and math.isfinite(upper):
         return (lower + upper) / 2
     if math.isfinite(lower):

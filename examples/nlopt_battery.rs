@@ -135,6 +135,7 @@ impl Battery {
             objective_is_linear: false,
             jacobian: Pattern::from_positions(m, &mut positions),
             hessian: Pattern::from_positions(n, &mut Vec::new()),
+            ..Meta::default()
         };
         let coefficient = |at: usize| match shape.values {
             Values::Dependent => (1 + at / n) as f64,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// Rooms from the top of the house to the ground; a room may use those on lower floors only.
 const FLOORS: &[&[&str]] = &[
     &["main"],
-    &["cli"],
+    &["cli", "api"],
     &["run"],
     &["input", "report", "log"],
     &["crosscheck"],
@@ -14,7 +14,8 @@ const FLOORS: &[&[&str]] = &[
     &["recession", "solvers"],
     &["model"],
     &["problem"],
-    &["ribs", "mesh"],
+    &["mesh"],
+    &["ribs"],
     &["sections"],
     &["geometry", "splines", "expression"],
     &["linear_algebra", "math", "files"],

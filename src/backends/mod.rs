@@ -29,8 +29,7 @@ pub trait Backend: Sync {
 
 /// Values, gradient, Jacobian and Hessian: entries touched by one look at a model.
 pub fn entries(model: &dyn Model) -> f64 {
-    let meta = model.meta();
-    (1 + meta.variables() + meta.rows() + meta.jacobian.len() + meta.hessian.len()) as f64
+    model.meta().work()
 }
 
 /// Says whether a point passes the certificate.

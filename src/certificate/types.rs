@@ -57,7 +57,7 @@ impl Side {
     }
 }
 
-/// What a point is. All measures are relative to the problem's own scale, see docs/certificate.md.
+/// What a point is. All measures are relative to the problem's own scale; see docs/certificate.md.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Every test holds and no variable has run away.

@@ -39,9 +39,10 @@ fn exit_code(result: &Result<DerivativeCheck, EvaluationError>) -> u8 {
 
 /// The classes a nonlinear problem misses, with the term that breaks each.
 fn misses(subject: &Subject) -> impl Iterator<Item = (&'static str, &str)> {
-    let reasons = [("a geometric program", &subject.not_geometric), ("convex", &subject.not_convex)];
-    let nonlinear = !subject.class.is_global();
-    reasons.into_iter().filter_map(move |(name, reason)| Some((name, reason.as_deref().filter(|_| nonlinear)?)))
+    let (not_geometric, not_convex) = subject.obstacles();
+    let reasons = [("a geometric program", not_geometric), ("convex", not_convex)];
+    let nonlinear = !subject.class().is_global();
+    reasons.into_iter().filter_map(move |(name, reason)| Some((name, reason.filter(|_| nonlinear)?)))
 }
 
 /// What `--json` prints.
@@ -69,9 +70,9 @@ impl<'a> Found<'a> {
         Found {
             file: &about.file,
             title: &about.title,
-            class: subject.class.to_string(),
-            not_geometric: subject.not_geometric.as_deref(),
-            not_convex: subject.not_convex.as_deref(),
+            class: subject.class().to_string(),
+            not_geometric: subject.obstacles().0,
+            not_convex: subject.obstacles().1,
             variables: meta.variables(),
             constraints: meta.rows(),
             derivatives: check.map(|check| Derivatives { compared: check.compared, disagreements: check.disagreements }),
@@ -86,7 +87,7 @@ fn sizes(subject: &Subject, out: &mut dyn Write) -> io::Result<()> {
     let fixed = (0..meta.variables()).filter(|&j| meta.lower[j] == meta.upper[j]).count();
     let (sections, ribs) = (subject.problem().sections.names.len(), subject.problem().ribs.names.len());
     writeln!(out, "{} ({}): no mistakes", about.title, about.file)?;
-    writeln!(out, "class: {}", subject.class)?;
+    writeln!(out, "class: {}", subject.class())?;
     for (name, reason) in misses(subject) {
         writeln!(out, "  not shown to be {name}: {reason}")?;
     }

@@ -30,7 +30,7 @@ pub fn run(arguments: &Compare) -> Result<u8, Failure> {
         output::tell(&subject.warnings);
         let of_file = compare(subject, Some(interrupt));
         if !arguments.json {
-            let (about, class) = (&subject.about, subject.class);
+            let (about, class) = (&subject.about, subject.class());
             output::print(|out| write!(out, "{} ({}), {class}\n{}\n", about.title, about.file, comparison::table(&of_file)))?;
         }
         trials.extend(of_file);

@@ -8,7 +8,7 @@ static WATCHED: AtomicBool = AtomicBool::new(false);
 /// The exit code of an interrupted run.
 const EXIT_INTERRUPTED: i32 = 5;
 
-/// Installs the handler, before anything else: from then on Ctrl-C ends every command with the exit code SPEC states.
+/// Installs the handler, before anything else: from then on Ctrl-C ends every command with the exit code docs/verdict.md states.
 pub fn install() {
     let handler = || {
         let again = INTERRUPTED.swap(true, Ordering::SeqCst);

@@ -16,7 +16,7 @@ pub fn run(arguments: &Verify) -> Result<u8, Failure> {
     let outcome = verify(&subject, &arguments.answer)?;
     let volumes = subject.volumes(&outcome.x);
     let (mass, utilisation) = (sizes::mass(subject.problem(), &outcome.x), utilisation::table(&subject, &outcome.x).ok());
-    let (about, model, class) = (&subject.about, subject.shown(), subject.class);
+    let (about, model, class) = (&subject.about, subject.shown(), subject.class());
     let findings = Findings { about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     output::print(|out| if arguments.json { result::write(&findings, out) } else { summary::write(&findings, out) })?;
     Ok(u8::from(outcome.status != Status::Certified))

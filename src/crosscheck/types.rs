@@ -218,7 +218,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The exit code of `solve` (SPEC §2).
+    /// The exit code of `solve` (docs/verdict.md).
     pub fn exit_code(&self) -> u8 {
         match self.status {
             Status::Certified if !self.better_point_elsewhere => 0,

@@ -1,7 +1,7 @@
 //! Text → tokens with their places.
 
 use super::Span;
-use super::parse::SyntaxError;
+use super::SyntaxError;
 
 /// One word of the language.
 #[derive(Debug, Clone, Copy, PartialEq)]

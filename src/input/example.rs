@@ -1,30 +1,25 @@
 //! Commented example files to start from.
 
 use crate::problem::nearest::did_you_mean;
+use crate::sections::KINDS;
 
-/// Examples by name, the default first.
-const EXAMPLES: &[(&str, &str)] = &[
-    ("ribs", include_str!("examples/ribs.toml")),
-    ("rectangle", include_str!("examples/rectangle.toml")),
-    ("h-beam", include_str!("examples/h-beam.toml")),
-    ("superellipse", include_str!("examples/superellipse.toml")),
-    ("tee", include_str!("examples/tee.toml")),
-    ("box", include_str!("examples/box.toml")),
-    ("circle", include_str!("examples/circle.toml")),
-    ("tube", include_str!("examples/tube.toml")),
-    ("i-section", include_str!("examples/i-section.toml")),
-    ("channel", include_str!("examples/channel.toml")),
-    ("angle", include_str!("examples/angle.toml")),
-    ("polygon", include_str!("examples/polygon.toml")),
-    ("polyline", include_str!("examples/polyline.toml")),
+/// The first example, and those that show something else than a kind of section.
+const FIRST: (&str, &str) = ("ribs", include_str!("examples/ribs.toml"));
+const FURTHER: &[(&str, &str)] = &[
     ("profile", include_str!("examples/profile.toml")),
     ("expressions", include_str!("examples/expressions.toml")),
     ("load-cases", include_str!("examples/load-cases.toml")),
 ];
 
+/// Examples by name, the default first.
+fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let of_kinds = KINDS.iter().map(|kind| (kind.name(), kind.example()));
+    std::iter::once(FIRST).chain(of_kinds).chain(FURTHER.iter().copied())
+}
+
 /// The names [`example`] knows.
 pub fn examples() -> impl Iterator<Item = &'static str> {
-    EXAMPLES.iter().map(|(name, _)| *name)
+    all().map(|(name, _)| name)
 }
 
 /// A commented example file: the one of this name, or the first.
@@ -38,9 +33,9 @@ pub fn examples() -> impl Iterator<Item = &'static str> {
 /// # Ok::<(), String>(())
 /// ```
 pub fn example(kind: Option<&str>) -> Result<String, String> {
-    let wanted = kind.unwrap_or(EXAMPLES[0].0);
-    match EXAMPLES.iter().find(|(name, _)| *name == wanted) {
-        Some((_, text)) => Ok((*text).to_owned()),
+    let wanted = kind.unwrap_or(FIRST.0);
+    match all().find(|(name, _)| *name == wanted) {
+        Some((_, text)) => Ok(text.to_owned()),
         None => {
             let known = || format!("known: {}", examples().collect::<Vec<_>>().join(", "));
             Err(format!("there is no example `{wanted}`; {}", did_you_mean(wanted, examples()).unwrap_or_else(known)))
@@ -65,9 +60,9 @@ mod tests {
 
     #[test]
     fn every_kind_of_section_has_an_example() {
-        for kind in crate::sections::KINDS {
+        for kind in KINDS {
             let named = format!("kind = \"{}\"", kind.name());
-            assert!(EXAMPLES.iter().any(|(_, text)| text.contains(&named)), "no example of {}", kind.name());
+            assert!(kind.example().contains(&named), "no example of {}", kind.name());
         }
     }
 }

@@ -89,22 +89,42 @@ pub struct Progress<'a> {
 /// Every mistake of the file, its tables and the overrides.
 pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Input, Mistakes> {
     let (source, bytes) = load::load(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut input = understand(&source, &bytes, folder, overrides, watch)?;
+    input.files.insert(0, path.to_path_buf());
+    Ok(input)
+}
+
+/// Reads a problem from a text instead of a file; `name` is what mistakes call it. Its tables are looked for in the current folder.
+///
+/// # Errors
+/// Every mistake of the text and its tables.
+pub fn read_text(name: &str, text: &str) -> Result<Input, Mistakes> {
+    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    understand(&source, text.as_bytes(), Path::new(""), &[], &|_| {})
+}
+
+fn understand(
+    source: &Source,
+    bytes: &[u8],
+    folder: &Path,
+    overrides: &[String],
+    watch: &dyn Fn(Progress<'_>),
+) -> Result<Input, Mistakes> {
     let mut checksum = Sha256::new();
-    checksum.update(&bytes);
+    checksum.update(bytes);
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let declared =
-        parse_tables::parse_tables(document.get_ref(), &mut Reader { bounds: false, source: &source, findings: &mut findings });
+    let declared = parse_tables::parse_tables(document.get_ref(), &mut Reader { bounds: false, source, findings: &mut findings });
     if !errors.is_empty() {
-        syntax(&source, &errors, &mut findings);
-        return Err(findings.into_parts(&source, overrides).0);
+        syntax(source, &errors, &mut findings);
+        return Err(findings.into_parts(source, overrides).0);
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
     let mut tables = Tables { folder, checksum: &mut checksum, watch };
-    let (mut problem, findings) = check::check(declared, &source, findings, overrides, &mut tables);
+    let (mut problem, findings) = check::check(declared, source, findings, overrides, &mut tables);
     let clean = findings.clean();
-    let files = std::iter::once(path.to_path_buf()).chain(findings.tables.iter().map(|(path, _)| path.clone())).collect();
-    let (mistakes, warnings) = findings.into_parts(&source, overrides);
+    let files = findings.tables.iter().map(|(path, _)| path.clone()).collect();
+    let (mistakes, warnings) = findings.into_parts(source, overrides);
     if !clean {
         return Err(mistakes);
     }

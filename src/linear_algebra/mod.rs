@@ -15,6 +15,7 @@ pub mod entries;
 mod guarded;
 pub mod null_space;
 mod ordering;
+mod outcome;
 pub mod partition;
 pub mod pattern;
 mod quasi_definite;
@@ -23,6 +24,7 @@ pub mod signed_least_squares;
 mod sparse;
 mod symmetric;
 
+pub use outcome::{FactorizationError, Inertia};
 pub use partition::Partition;
 pub use pattern::Pattern;
-pub use symmetric::{FactorizationError, Inertia, SymmetricSolver};
+pub use symmetric::SymmetricSolver;

@@ -97,6 +97,17 @@ impl Pattern {
         }
     }
 
+    /// y = H·x for the symmetric matrix of whose lower triangle these are the values; y is overwritten.
+    pub fn multiply_symmetric(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        y.fill(0.0);
+        for ((row, column), value) in self.iter().zip(values) {
+            y[row] += value * x[column];
+            if row != column {
+                y[column] += value * x[row];
+            }
+        }
+    }
+
     /// y += Aᵀ·x for the values of A along this pattern.
     pub fn add_transposed(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for (row, &factor) in x.iter().enumerate() {

@@ -1,42 +1,11 @@
 //! LDLᵀ of a sparse symmetric indefinite matrix: analyse once, factorise often, solve with refinement.
 
 use feral::CscMatrix;
-use thiserror::Error;
 
 use super::dense::{self, DenseSolver};
 use super::guarded::GuardedSolver;
 use super::sparse::SparseSolver;
-
-/// How many eigenvalues of a symmetric matrix are positive, negative and (numerically) zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Inertia {
-    /// n₊
-    pub positive: usize,
-    /// n₋
-    pub negative: usize,
-    /// n₀
-    pub zero: usize,
-}
-
-impl Inertia {
-    pub(super) fn of(inertia: &feral::Inertia) -> Self {
-        Inertia { positive: inertia.positive, negative: inertia.negative, zero: inertia.zero }
-    }
-}
-
-/// Why there is no factorisation or no solution.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum FactorizationError {
-    /// Offsets, columns or slices do not fit together.
-    #[error("the pattern is no lower triangle by rows: {0}")]
-    Pattern(String),
-    /// The matrix is singular so badly that no factors exist.
-    #[error("the matrix is singular")]
-    Singular,
-    /// The library refused, most often because a value was no number.
-    #[error("the factorisation failed: {0}")]
-    Library(String),
-}
+use super::{FactorizationError, Inertia};
 
 /// A factorisation that keeps its symbolic analysis from one set of values to the next.
 ///

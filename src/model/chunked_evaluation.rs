@@ -6,9 +6,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::Pattern;
-use super::assembled::{Affine, all_finite};
+use super::affine::Affine;
 use super::elements::Group;
+use super::{Pattern, all_finite};
 use crate::expression::tape::Workspace;
 
 /// Variables or rows in a chunk.

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::Instant;
 
-use super::{Components, EvaluationError, Meta, Model, Stop};
+use super::{Components, Evaluation, EvaluationError, Meta, Model, Stop};
 
 /// When a run must end. Checked before every evaluation, so that it holds inside line searches and foreign solvers too.
 #[derive(Debug, Clone, Copy)]
@@ -66,15 +66,24 @@ impl<'a> Evaluator<'a> {
         self.evaluations.fetch_add(points, Relaxed);
     }
 
+    /// The name of variable j, for messages.
+    pub fn variable_name(&self, j: usize) -> String {
+        self.meta().names.variable(j)
+    }
+
+    /// The name of row i, for messages.
+    pub fn row_name(&self, i: usize) -> String {
+        self.meta().names.row(i)
+    }
+
     fn may_go_on(&self) -> Result<(), EvaluationError> {
         self.budget.check(self.evaluations()).map_err(EvaluationError::Stopped)
     }
 
-    fn guard(&self, what: impl Fn(usize) -> String, values: &[f64]) -> Result<(), EvaluationError> {
-        match values.iter().position(|value| !value.is_finite()) {
-            None => Ok(()),
-            Some(at) => Err(EvaluationError::Invalid { term: what(at), cause: format!("the value is {}", values[at]) }),
-        }
+    fn count_one(&self) -> Result<(), EvaluationError> {
+        self.may_go_on()?;
+        self.evaluations.fetch_add(1, Relaxed);
+        Ok(())
     }
 }
 
@@ -83,51 +92,70 @@ impl Model for Evaluator<'_> {
         self.model.meta()
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
         self.may_go_on()?;
-        self.evaluations.fetch_add(1, Relaxed);
-        let value = self.model.objective(x)?;
-        self.guard(|_| "objective".into(), &[value])?;
-        Ok(value)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.may_go_on()?;
-        self.evaluations.fetch_add(1, Relaxed);
-        let value = self.model.gradient(x, gradient)?;
-        self.guard(|_| "objective".into(), &[value])?;
-        self.guard(|j| format!("derivative of the objective in {}", self.variable_name(j)), gradient)?;
-        Ok(value)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.may_go_on()?;
-        self.model.constraints(x, values)?;
-        self.guard(|i| format!("row {}", self.row_name(i)), values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.may_go_on()?;
-        self.model.jacobian(x, values)?;
-        let row_of = |at: usize| self.meta().jacobian.offsets.partition_point(|&offset| offset <= at) - 1;
-        self.guard(|at| format!("derivative of row {}", self.row_name(row_of(at))), values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.may_go_on()?;
-        self.model.hessian(x, weight, y, values)?;
-        self.guard(|_| "second derivatives".into(), values)
+        Ok(Box::new(Guarded { guard: self, inner: self.model.at(x)? }))
     }
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {
         self.model.components()
     }
+}
 
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
+/// One point behind the guard.
+struct Guarded<'m> {
+    guard: &'m Evaluator<'m>,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl Evaluation for Guarded<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        self.guard.count_one()?;
+        let value = self.inner.objective()?;
+        guard(|_| "objective".into(), &[value])?;
+        Ok(value)
     }
 
-    fn row_name(&self, i: usize) -> String {
-        self.model.row_name(i)
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        self.guard.count_one()?;
+        let value = self.inner.gradient(gradient)?;
+        guard(|_| "objective".into(), &[value])?;
+        let names = &self.guard.meta().names;
+        guard(|j| format!("derivative of the objective in {}", names.variable(j)), gradient)?;
+        Ok(value)
+    }
+
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.guard.may_go_on()?;
+        self.inner.constraints(values)?;
+        guard(|i| format!("row {}", self.guard.meta().names.row(i)), values)
+    }
+
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.guard.may_go_on()?;
+        self.inner.jacobian(values)?;
+        let meta = self.guard.meta();
+        let row_of = |at: usize| meta.jacobian.offsets.partition_point(|&offset| offset <= at) - 1;
+        guard(|at| format!("derivative of row {}", meta.names.row(row_of(at))), values)
+    }
+
+    fn hessian(&mut self, weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.guard.may_go_on()?;
+        self.inner.hessian(weight, y, values)?;
+        guard(|_| "second derivatives".into(), values)
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        self.guard.may_go_on()?;
+        self.inner.hessian_product(weight, y, direction, product)?;
+        guard(|_| "second derivatives".into(), product)
+    }
+}
+
+/// Refuses what is no number.
+fn guard(what: impl Fn(usize) -> String, values: &[f64]) -> Result<(), EvaluationError> {
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(at) => Err(EvaluationError::Invalid { term: what(at), cause: format!("the value is {}", values[at]) }),
     }
 }

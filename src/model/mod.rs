@@ -3,15 +3,21 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+mod affine;
 mod assemble;
 mod assembled;
 mod chunked_evaluation;
 pub mod class;
+pub mod closures;
 pub mod components;
 pub mod derivative_check;
 pub mod domain;
+mod element_model;
 mod elements;
+mod evaluation;
 pub mod evaluator;
+mod formulate;
+mod names;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod views;
@@ -23,7 +29,10 @@ pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
 pub use components::Components;
+pub use evaluation::Evaluation;
 pub use evaluator::{Budget, Evaluator};
+pub use formulate::{Formulation, formulate};
+pub use names::{NameTable, Names};
 pub use views::{Elastic, Freed, Limit, Substitution, WithBounds};
 
 /// What is known of a model before any evaluation.
@@ -50,6 +59,25 @@ pub struct Meta {
     pub jacobian: Pattern,
     /// Where the Hessian of the Lagrangian can be non-zero: n rows, lower triangle (column ≤ row).
     pub hessian: Pattern,
+    /// How second derivatives can be had.
+    pub curvature: Curvature,
+    /// What one evaluation costs besides the entries it fills in, in the same unit: 0 where it is a pass over the entries, the work of
+    /// a factorisation where states are solved for.
+    pub extra_work: f64,
+    /// What variables and rows are called.
+    pub names: NameTable,
+}
+
+/// How a model gives second derivatives.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Curvature {
+    /// Exactly, as entries along [`Meta::hessian`].
+    #[default]
+    Exact,
+    /// Exactly, as products with vectors only ([`Model::hessian_product`]); [`Meta::hessian`] is empty.
+    Product,
+    /// Not at all.
+    None,
 }
 
 /// How many variables and rows are the user's own; what follows them is auxiliary and no business of a report.
@@ -72,6 +100,12 @@ impl Meta {
         self.row_lower.len()
     }
 
+    /// Entries touched by one look at values, gradient, Jacobian and Hessian, and what the model adds to them: an estimate of its
+    /// cost that is the same on every machine.
+    pub fn work(&self) -> f64 {
+        (1 + self.variables() + self.rows() + self.jacobian.len() + self.hessian.len()) as f64 + self.extra_work
+    }
+
     /// Whether row i is known to be affine in x.
     pub fn is_row_linear(&self, i: usize) -> bool {
         self.row_is_linear.get(i).copied().unwrap_or(false)
@@ -90,27 +124,61 @@ impl Meta {
     }
 }
 
-/// Values and exact derivatives. Slices have the lengths [`Model::meta`] states; x need not be inside the bounds.
+/// Values and exact derivatives. Slices have the lengths [`Model::meta`] states; x need not be inside the bounds. A model may be
+/// asked from several threads at once, at different points.
+///
+/// A model is written in one of two ways. One that has nothing to keep at a point gives `objective`, `gradient`, `constraints`,
+/// `jacobian` and `hessian`; one that solves for states or keeps factors gives [`Model::at`]. Each way follows from the other.
 ///
 /// Every method returns finite numbers or an error that names the term: a NaN or an infinity never passes for a value.
 pub trait Model: Sync {
-    /// Sizes, bounds, limits, patterns.
+    /// Sizes, bounds, limits, patterns, names.
     fn meta(&self) -> &Meta;
 
+    /// The model at x: what is to be computed once there is computed once.
+    ///
+    /// # Errors
+    /// What is computed once has no value there.
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(evaluation::AtPoint { model: self, x: x.to_vec() }))
+    }
+
     /// f(x)
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError>;
+    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+        self.at(x)?.objective()
+    }
 
     /// ∇f(x), dense, length n, overwritten. Returns f(x).
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError>;
+    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        self.at(x)?.gradient(gradient)
+    }
 
     /// c(x), length m, overwritten.
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
+    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.at(x)?.constraints(values)
+    }
 
     /// The Jacobian's values along [`Meta::jacobian`], overwritten.
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
+    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.at(x)?.jacobian(values)
+    }
 
-    /// The values of `weight·∇²f + Σ y_i ∇²c_i` along [`Meta::hessian`], overwritten.
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError>;
+    /// The values of `weight·∇²f + Σ y_i ∇²c_i` along [`Meta::hessian`], overwritten; y has an entry for every row, affine ones too.
+    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.at(x)?.hessian(weight, y, values)
+    }
+
+    /// (weight·∇²f + Σ y_i ∇²c_i)·direction, length n, overwritten.
+    fn hessian_product(
+        &self,
+        x: &[f64],
+        weight: f64,
+        y: &[f64],
+        direction: &[f64],
+        product: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        self.at(x)?.hessian_product(weight, y, direction, product)
+    }
 
     /// How many variables and rows are the user's own.
     fn own(&self) -> Own {
@@ -121,24 +189,26 @@ pub trait Model: Sync {
     /// user's expressions are at this point.
     fn complete(&self, _x: &mut [f64]) {}
 
-    /// The model seen as independent small ones, where it falls apart and can be evaluated piece by piece.
+    /// The model seen as independent small ones, where it decomposes and can be evaluated component by component.
     fn components(&self) -> Option<Box<dyn Components + '_>> {
         None
     }
+}
 
+impl<'a> dyn Model + 'a {
     /// The name of variable j, for messages.
-    fn variable_name(&self, j: usize) -> String {
-        format!("x[{}]", j + 1)
+    pub fn variable_name(&self, j: usize) -> String {
+        self.meta().names.variable(j)
     }
 
     /// The name of row i, for messages.
-    fn row_name(&self, i: usize) -> String {
-        format!("c{}", i + 1)
+    pub fn row_name(&self, i: usize) -> String {
+        self.meta().names.row(i)
     }
 
-    /// Where row i is declared, ready to print (`file.toml:12`), where that is known.
-    fn row_place(&self, _i: usize) -> Option<String> {
-        None
+    /// Where row i is declared, ready to print, where that is known.
+    pub fn row_place(&self, i: usize) -> Option<String> {
+        self.meta().names.row_place(i)
     }
 }
 
@@ -170,4 +240,9 @@ pub enum Stop {
     /// Ctrl-C
     #[error("interrupted")]
     Interrupted,
+}
+
+/// Looked at in blocks without a way out, so that the compiler uses vector instructions.
+fn all_finite(values: &[f64]) -> bool {
+    values.chunks(64).all(|block| block.iter().fold(true, |finite, value| finite & value.is_finite()))
 }

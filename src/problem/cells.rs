@@ -1,7 +1,7 @@
 //! Which data cells a formula uses, and which of them are empty.
 
 use super::formula::Members;
-use super::resolve::ItemScope;
+use super::item_scope::ItemScope;
 use super::{Cells, Formula, Problem};
 use crate::expression::ast::Collection;
 

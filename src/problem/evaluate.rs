@@ -11,7 +11,7 @@ use crate::expression::operators::{Binary, Fold};
 use crate::sections::{self, Given};
 
 /// The item whose own names hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Item {
     None,

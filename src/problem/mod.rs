@@ -10,6 +10,7 @@ pub mod existence;
 pub mod formula;
 pub mod glob;
 mod instance;
+mod item_scope;
 pub mod items;
 pub mod kinks;
 pub mod mentions;
@@ -28,6 +29,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::geometry::polygon::Ring;
+pub use crate::ribs::law::VolumeLaw;
 use crate::sections;
 pub use collections::sections_form;
 pub use formula::{Formula, Property};
@@ -219,31 +221,6 @@ pub struct Ribs {
     pub law: Vec<VolumeLaw>,
     /// Data columns.
     pub data: Vec<Column>,
-}
-
-/// How a rib's volume follows from its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
-pub enum VolumeLaw {
-    /// l/3·(S1 + S2 + √(S1·S2)), note (2.3.1) and (2.4.1).
-    #[default]
-    Frustum,
-    /// l/6·(A_i + 4·A_m + A_j): dimensions vary linearly.
-    Prismatoid,
-}
-
-impl VolumeLaw {
-    /// The law's name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            VolumeLaw::Frustum => "frustum",
-            VolumeLaw::Prismatoid => "prismatoid",
-        }
-    }
-
-    /// The law of this name.
-    pub fn named(name: &str) -> Option<VolumeLaw> {
-        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().find(|law| law.name() == name)
-    }
 }
 
 /// One data column of sections or ribs.

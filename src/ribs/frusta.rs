@@ -150,7 +150,7 @@ mod tests {
     use super::*;
     use crate::expression::kernel::{Kernel, gradients_one_by_one, hessians_one_by_one};
     use crate::expression::tape::Workspace;
-    use crate::ribs::{Part, law::Law};
+    use crate::ribs::{Part, law::VolumeLaw};
 
     /// Elements of a row, and the same in reverse: no row.
     fn in_a_row_and_reversed(count: usize) -> [Vec<u32>; 2] {
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn many_at_a_time_are_the_same_as_one_by_one() {
-        let (count, part) = (2 * FRUSTA + LANES + 3, Part::new(Law::Frustum, false));
+        let (count, part) = (2 * FRUSTA + LANES + 3, Part::new(VolumeLaw::Frustum, false));
         let (x, weights) = (lengths(count), (0..count).map(|k| 1.0 + k as f64).collect::<Vec<_>>());
         for inputs in in_a_row_and_reversed(count) {
             let elements = Elements { inputs: &inputs, data: &[], weights: &weights };
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_section_without_area_gives_no_number() {
-        let (count, part) = (FRUSTA, Part::new(Law::Frustum, false));
+        let (count, part) = (FRUSTA, Part::new(VolumeLaw::Frustum, false));
         let (mut x, weights) = (lengths(count), vec![1.0; count]);
         let [inputs, _] = in_a_row_and_reversed(count);
         for (bad, at) in [(0.0, 0), (-1.0, 9), (f64::NAN, 2 * count), (f64::INFINITY, 2 * count + 1)] {
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn second_derivatives_go_where_they_belong() {
-        let (count, part) = (LANES + 3, Part::new(Law::Frustum, false));
+        let (count, part) = (LANES + 3, Part::new(VolumeLaw::Frustum, false));
         let (x, weights) = (lengths(count), (0..count).map(|k| k as f64 - 2.0).collect::<Vec<_>>());
         let [inputs, _] = in_a_row_and_reversed(count);
         let elements = Elements { inputs: &inputs, data: &[], weights: &weights };

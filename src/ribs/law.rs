@@ -3,13 +3,32 @@
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
 
-/// Which law.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Law {
-    /// (S1 + S2 + √(S1·S2))/3 per unit length, note (2.3.1).
+/// How a rib's volume follows from its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum VolumeLaw {
+    /// l/3·(S1 + S2 + √(S1·S2)): the frustum of a pyramid.
+    #[default]
     Frustum,
-    /// (S1 + 4·Sm + S2)/6 per unit length, Sm the area at the mean dimensions.
+    /// l/6·(S1 + 4·Sm + S2), Sm the area at the mean dimensions: exact where dimensions vary linearly.
     Prismatoid,
+}
+
+impl VolumeLaw {
+    /// All of them.
+    pub const ALL: [VolumeLaw; 2] = [VolumeLaw::Frustum, VolumeLaw::Prismatoid];
+
+    /// The law's name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            VolumeLaw::Frustum => "frustum",
+            VolumeLaw::Prismatoid => "prismatoid",
+        }
+    }
+
+    /// The law of this name.
+    pub fn named(name: &str) -> Option<VolumeLaw> {
+        VolumeLaw::ALL.into_iter().find(|law| law.name() == name)
+    }
 }
 
 /// Frustum volume per unit length. √S1·√S2 rather than √(S1·S2): two negative areas must not pass for a volume.

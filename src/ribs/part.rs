@@ -1,7 +1,7 @@
 //! Volume per unit length of a part whose area is a product: width w times height h, or times a difference H − c·h.
 
 use super::frusta;
-use super::law::Law;
+use super::law::VolumeLaw;
 use crate::expression::kernel::{Elements, Kernel, gradients_one_by_one, hessians_one_by_one};
 use crate::expression::tape::Workspace;
 
@@ -15,16 +15,16 @@ use crate::expression::tape::Workspace;
 /// ```
 /// use ribopt::expression::kernel::Kernel;
 /// use ribopt::expression::tape::Workspace;
-/// use ribopt::ribs::{law::Law, Part};
+/// use ribopt::ribs::{law::VolumeLaw, Part};
 ///
-/// let frustum = Part::new(Law::Frustum, false);
+/// let frustum = Part::new(VolumeLaw::Frustum, false);
 /// let mut gradient = [0.0; 4];
 /// let volume = frustum.gradient(&[2.0, 3.0, 2.0, 3.0], &[], &mut Workspace::default(), &mut gradient);
 /// assert_eq!(volume, 6.0);
 /// assert_eq!(gradient, [1.5, 1.0, 1.5, 1.0]);
 /// ```
 pub struct Part {
-    law: Law,
+    law: VolumeLaw,
     difference: bool,
 }
 
@@ -57,7 +57,7 @@ const PLACE: [usize; 6] = [0, 1, 1, 2, 3, 3];
 
 impl Part {
     /// The kernel for a law, with heights given directly or as differences.
-    pub fn new(law: Law, difference: bool) -> Part {
+    pub fn new(law: VolumeLaw, difference: bool) -> Part {
         Part { law, difference }
     }
 
@@ -73,25 +73,25 @@ impl Part {
     }
 
     /// Volume per unit length by a law, from widths and heights (w1, h1, w2, h2).
-    pub fn volume_per_length(law: Law, [w1, h1, w2, h2]: [f64; 4]) -> f64 {
+    pub fn volume_per_length(law: VolumeLaw, [w1, h1, w2, h2]: [f64; 4]) -> f64 {
         match law {
-            Law::Frustum => {
+            VolumeLaw::Frustum => {
                 let (s1, s2) = (w1 * h1, w2 * h2);
                 (s1 + s2 + s1.sqrt() * s2.sqrt()) / 3.0
             }
-            Law::Prismatoid => (2.0 * (w1 * h1 + w2 * h2) + w1 * h2 + w2 * h1) / 6.0,
+            VolumeLaw::Prismatoid => (2.0 * (w1 * h1 + w2 * h2) + w1 * h2 + w2 * h1) / 6.0,
         }
     }
 
     fn volume_gradient(&self, [w1, h1, w2, h2]: [f64; 4]) -> (f64, [f64; 4]) {
         match self.law {
-            Law::Frustum => {
+            VolumeLaw::Frustum => {
                 let (s1, s2) = (w1 * h1, w2 * h2);
                 let (r1, r2) = (s1.sqrt(), s2.sqrt());
                 let (q1, q2) = (1.0 / 3.0 + r2 / r1 / 6.0, 1.0 / 3.0 + r1 / r2 / 6.0);
                 ((s1 + s2 + r1 * r2) / 3.0, [q1 * h1, q1 * w1, q2 * h2, q2 * w2])
             }
-            Law::Prismatoid => {
+            VolumeLaw::Prismatoid => {
                 let gradient = [2.0 * h1 + h2, 2.0 * w1 + w2, 2.0 * h2 + h1, 2.0 * w2 + w1].map(|sum| sum / 6.0);
                 (Part::volume_per_length(self.law, [w1, h1, w2, h2]), gradient)
             }
@@ -116,10 +116,10 @@ impl Kernel for Part {
 
     fn hessian_pattern(&self) -> &[(u32, u32)] {
         match (self.law, self.difference) {
-            (Law::Frustum, false) => &FOUR,
-            (Law::Frustum, true) => &SIX,
-            (Law::Prismatoid, false) => &BILINEAR,
-            (Law::Prismatoid, true) => &BILINEAR_SPLIT,
+            (VolumeLaw::Frustum, false) => &FOUR,
+            (VolumeLaw::Frustum, true) => &SIX,
+            (VolumeLaw::Prismatoid, false) => &BILINEAR,
+            (VolumeLaw::Prismatoid, true) => &BILINEAR_SPLIT,
         }
     }
 
@@ -148,7 +148,7 @@ impl Kernel for Part {
         target: &mut [f64],
         workspace: &mut Workspace,
     ) -> f64 {
-        if self.law == Law::Frustum && !self.difference {
+        if self.law == VolumeLaw::Frustum && !self.difference {
             return frusta::add_gradients(elements, x, first, target);
         }
         gradients_one_by_one(self, elements, x, first, target, workspace)
@@ -156,9 +156,9 @@ impl Kernel for Part {
 
     fn hessian(&self, x: &[f64], data: &[f64], _: &mut Workspace, hessian: &mut [f64]) {
         let full = match self.law {
-            Law::Frustum => frusta::hessians(&self.lengths(x, data).map(|length| [length])).map(|[second]| second),
+            VolumeLaw::Frustum => frusta::hessians(&self.lengths(x, data).map(|length| [length])).map(|[second]| second),
             // In the order of FOUR: w1·h1 and w2·h2 weigh 2, the crossed products 1.
-            Law::Prismatoid => [0.0, 2.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0].map(|weight| weight / 6.0),
+            VolumeLaw::Prismatoid => [0.0, 2.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0].map(|weight| weight / 6.0),
         };
         if self.difference {
             let factors = Part::factors(data);
@@ -182,7 +182,7 @@ impl Kernel for Part {
         target: &mut [f64],
         workspace: &mut Workspace,
     ) {
-        if self.law == Law::Frustum && !self.difference {
+        if self.law == VolumeLaw::Frustum && !self.difference {
             return frusta::add_hessians(elements, x, slots, first, target);
         }
         hessians_one_by_one(self, elements, x, slots, first, target, workspace);
@@ -195,7 +195,7 @@ impl Kernel for Part {
             if !area.is_finite() {
                 return Some(format!("the area at the {end} end overflows ({w} × {h})"));
             }
-            if area <= 0.0 && self.law == Law::Frustum {
+            if area <= 0.0 && self.law == VolumeLaw::Frustum {
                 return Some(format!("the area at the {end} end is {area} ({w} × {h}), and a frustum needs a positive one"));
             }
         }
@@ -212,7 +212,7 @@ mod tests {
     const POINTS: [[f64; 6]; 2] = [[0.3, 0.9, 0.4, 0.2, 0.7, 0.1], [5.0, 110.0, 50.0, 20.0, 200.0, 100.0]];
 
     fn kernels() -> impl Iterator<Item = Part> {
-        [Law::Frustum, Law::Prismatoid].into_iter().flat_map(|law| [Part::new(law, false), Part::new(law, true)])
+        [VolumeLaw::Frustum, VolumeLaw::Prismatoid].into_iter().flat_map(|law| [Part::new(law, false), Part::new(law, true)])
     }
 
     /// Central differences of a function at x.
@@ -263,30 +263,30 @@ mod tests {
     fn euler_s_identity_holds_and_the_note_s_printed_gradient_breaks_it() {
         let x = [0.3, 0.9, 0.2, 0.7];
         let mut gradient = [0.0; 4];
-        let volume = Part::new(Law::Frustum, false).gradient(&x, &[], &mut Workspace::default(), &mut gradient);
+        let volume = Part::new(VolumeLaw::Frustum, false).gradient(&x, &[], &mut Workspace::default(), &mut gradient);
         let euler: f64 = x.iter().zip(gradient).map(|(x, d)| x * d).sum();
         assert!((euler - 2.0 * volume).abs() < 1e-15);
         let [b1, h1, b2, h2] = x;
         let printed = h1 / 6.0 + 0.5 * (h1 * b2 * h2 / b1).sqrt();
-        let difference = difference(&x, 0, |x| Part::new(Law::Frustum, false).value(x, &[], &mut Workspace::default()));
+        let difference = difference(&x, 0, |x| Part::new(VolumeLaw::Frustum, false).value(x, &[], &mut Workspace::default()));
         assert!((printed - difference).abs() > 1e-3, "the misprint would pass: {printed} {difference}");
         assert!((gradient[0] - difference).abs() < 1e-9);
     }
 
     #[test]
-    fn tapered_h_beam_of_the_formulas_page() {
+    fn tapered_h_beam_of_docs_formulas() {
         let (web, flange) = ([8.0, 180.0, 6.0, 100.0], [100.0, 20.0, 60.0, 30.0]);
         let volume = |law| {
             let part = Part::new(law, false);
             1000.0 * (part.value(&web, &[], &mut Workspace::default()) + part.value(&flange, &[], &mut Workspace::default()))
         };
-        assert!((volume(Law::Prismatoid) - 2_960_000.0).abs() < 1e-6);
-        assert!((volume(Law::Frustum) - 2_888_960.87).abs() < 5e-3);
+        assert!((volume(VolumeLaw::Prismatoid) - 2_960_000.0).abs() < 1e-6);
+        assert!((volume(VolumeLaw::Frustum) - 2_888_960.87).abs() < 5e-3);
     }
 
     #[test]
     fn areas_that_are_not_positive_are_explained() {
-        let frustum = Part::new(Law::Frustum, true);
+        let frustum = Part::new(VolumeLaw::Frustum, true);
         assert!(frustum.explain(&[1.0, 1.0, 2.0, 1.0, 2.0, 1.0], &[1.0]).unwrap().contains("left end is -1"));
         assert!(!frustum.value(&[1.0, 1.0, 2.0, 1.0, 1.0, 2.0], &[1.0], &mut Workspace::default()).is_finite());
         assert_eq!(frustum.explain(&[1.0, 2.0, 1.0, 1.0, 2.0, 1.0], &[1.0]), None);

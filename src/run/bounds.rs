@@ -40,7 +40,7 @@ pub fn bounds(subject: &Subject, choices: &[Choice], interrupt: Option<&AtomicBo
     let task = Task {
         model: &model,
         substitution: None,
-        class: subject.class,
+        class: subject.class(),
         settings: &subject.settings,
         start: &model.meta().start,
         start_multipliers: None,
@@ -104,15 +104,12 @@ fn reason(problem: &Problem, j: usize, end: &End) -> Option<String> {
         };
     };
     let form = sections::form(*problem.sections.form.get(section as usize)?);
-    let given = |name: &str| form.dimensions.contains(&name);
     let dimension = *form.dimensions.get(usize::from(position))?;
-    let by_height = form.kind == "h-beam" && matches!(dimension, "hw" | "h1") && (given("h") || given("h2"));
-    if by_height && end.at == Where::Upper {
-        let height = if given("h") { "h" } else { "h2" };
-        let section = &problem.sections.names[section as usize];
-        return Some(format!(
-            "with the overall height {section}.{height} given, a taller web takes the place of flange, which is wider: less volume"
-        ));
+    if end.at == Where::Upper
+        && let Some(kind) = sections::kind(form.kind)
+        && let Some(why) = kind.explain_upper_bound(form, dimension, &problem.sections.names[section as usize])
+    {
+        return Some(why);
     }
     (end.at == Where::Inside && end.derivative == 0.0).then(|| "no rib depends on it".into())
 }

@@ -23,11 +23,6 @@ pub fn built_in() -> &'static [&'static dyn Backend] {
     ]
 }
 
-/// Names of the logs any of them leaves.
-pub(super) fn logs() -> impl Iterator<Item = String> {
-    crate::problem::settings::BACKENDS.iter().map(|backend| super::results::log_name(backend))
-}
-
 /// The backends of the command line, else of the file, else all, with their algorithms.
 ///
 /// # Errors

@@ -54,7 +54,7 @@ fn run(subject: &Subject, choice: &Choice, max_seconds: f64, interrupt: Option<&
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
-        class: subject.class,
+        class: subject.class(),
         settings: &settings,
         start: &subject.model().meta().start,
         start_multipliers: None,

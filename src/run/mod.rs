@@ -29,6 +29,9 @@ use crate::report::answer::AnswerError;
 use crate::report::result::Mistake;
 use folder::FolderError;
 
+/// Rows, sections or ribs up to which utilisation, sizes and volumes are listed: beyond, the lists would take as long as the run.
+const MOST_LISTED: usize = 300_000;
+
 /// Sees a run as it goes on.
 pub trait Watcher {
     /// A backend begins.
@@ -83,3 +86,5 @@ impl RunError {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod toy_kind;

@@ -3,9 +3,9 @@
 use std::io;
 use std::sync::Arc;
 
+use super::MOST_LISTED;
 use super::Subject;
 use super::results::Writer;
-use super::solve::MOST_LISTED;
 use crate::expression::ast::Collection;
 use crate::model::{EvaluationError, Model, assemble};
 use crate::problem::evaluate::{Evaluation, Item};

@@ -3,19 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use super::choice::{Choice, refuse_if_none_accepts};
+use super::choice::{Choice, choose, refuse_if_none_accepts};
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::results::{Ending, Results};
-use super::{RunError, Subject, Watcher, pictures, sizes, utilisation};
-use crate::crosscheck::{Outcome, Status, Task};
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, utilisation};
+use crate::backends::Backend;
+use crate::crosscheck::{self, Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
-
-/// Rows, sections or ribs up to which utilisation, sizes and volumes are listed: beyond, the lists would take as long as the run.
-pub(super) const MOST_LISTED: usize = 300_000;
 
 /// What is asked of a run, besides the problem.
 pub struct Request<'a> {
@@ -59,7 +57,7 @@ impl Solved {
         Findings {
             about: &self.about,
             model: subject.shown(),
-            class: subject.class,
+            class: subject.class(),
             outcome: &self.outcome,
             volumes: self.volumes,
             mass: self.mass,
@@ -90,7 +88,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
-        class: subject.class,
+        class: subject.class(),
         settings: &subject.settings,
         start: &start,
         start_multipliers: start_multipliers.as_deref(),
@@ -105,7 +103,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
     let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
     let mass = sizes::mass(subject.problem(), &outcome.x);
-    let (model, class) = (subject.shown(), subject.class);
+    let (model, class) = (subject.shown(), subject.class());
     let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     let ending =
         Ending { sha256: &about.sha256, cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached) };
@@ -125,6 +123,33 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         Ok(())
     });
     Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
+}
+
+/// Solves without leaving files: every backend of the settings, or all that are built in.
+///
+/// # Errors
+/// No backend takes the problem.
+pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
+    let choices = choose(&[], None, &subject.settings)?;
+    refuse_if_none_accepts(&choices, subject.model())?;
+    let start = subject.model().meta().start.clone();
+    let task = Task {
+        model: subject.model(),
+        substitution: subject.substitution(),
+        class: subject.class(),
+        settings: &subject.settings,
+        start: &start,
+        start_multipliers: None,
+        starts: 1,
+        interrupt: None,
+    };
+    Ok(present(subject, unobserved(&task, &choices)))
+}
+
+/// A run that nobody watches.
+pub(crate) fn unobserved(task: &Task<'_>, choices: &[Choice]) -> Outcome {
+    let backends: Vec<(&dyn Backend, &str)> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
+    crosscheck::run(task, &backends, &mut |_, _| Box::new(|_| {}))
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

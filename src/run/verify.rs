@@ -16,7 +16,7 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
     let x = subject.completed(EarlierAnswer::read(answer)?.point(subject.shown())?);
     let settings = &subject.settings;
     let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
-    let outcome = match certify(subject.model(), subject.class, &x, None, tolerances) {
+    let outcome = match certify(subject.model(), subject.class(), &x, None, tolerances) {
         Err(error) => Outcome { status: Status::InvalidValue, message: error.to_string(), x, ..Outcome::default() },
         Ok(certificate) => Outcome {
             status: if certificate.certified { Status::Certified } else { Status::Uncertified },

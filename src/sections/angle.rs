@@ -28,6 +28,10 @@ impl Kind for Angle {
         "angle"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/angle.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

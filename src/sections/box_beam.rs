@@ -1,6 +1,7 @@
 //! `box`: outer width b and height h, wall thicknesses tw (webs, upright) and tf (flanges, level).
 
 use super::build::{monomial, radius, symmetric_modulus};
+use super::defaults::{Defaults, PROPORTION, WEB_THICKNESS, length};
 use super::rectangles::plastic_between_flanges;
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
@@ -86,9 +87,35 @@ impl Shape {
     }
 }
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: &[
+        length("b", 0.05, 0.5, 0.15),
+        length("h", 0.06, 1.5, 0.3),
+        length("tw", 0.004, 0.02, 0.008),
+        length("tf", 0.004, 0.02, 0.008),
+    ],
+    proportions: &[
+        ("web-slenderness", "h <= 5*slenderness*tw"),
+        ("flange-slenderness", "b <= 5*slenderness*tf"),
+        PROPORTION,
+        WEB_THICKNESS,
+        ("flange-thickness", "tf >= thickness"),
+    ],
+    thickness: 0.005,
+    height: ("h", 1.0),
+};
+
 impl Kind for BoxBeam {
     fn name(&self) -> &'static str {
         "box"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/box.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

@@ -76,6 +76,10 @@ impl Kind for Channel {
         "channel"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/channel.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::build::{monomial, radius};
+use super::defaults::{Defaults, length};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Superellipse;
@@ -13,9 +14,24 @@ pub struct Circle;
 
 static FORMS: &[Form] = &[Form { kind: "circle", dimensions: &["d"] }];
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: &[length("d", 0.02, 1.5, 0.2)],
+    proportions: &[("thickness", "d >= thickness")],
+    thickness: 0.03,
+    height: ("d", 1.0),
+};
+
 impl Kind for Circle {
     fn name(&self) -> &'static str {
         "circle"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/circle.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

@@ -3,6 +3,7 @@
 //! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
 
 use super::build::{monomial, radius, symmetric_modulus};
+use super::defaults::{Defaults, FLANGE, FLANGE_THICKNESS, PROPORTION, WEB_AND_FLANGE, WEB_THICKNESS};
 use super::rectangles::{on_axis, plastic_between_flanges, torsion};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
@@ -85,9 +86,32 @@ impl Shape {
     }
 }
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: WEB_AND_FLANGE,
+    proportions: &[("web-slenderness", "hw <= 5*slenderness*tw"), FLANGE, PROPORTION, WEB_THICKNESS, FLANGE_THICKNESS],
+    thickness: 0.006,
+    height: ("hw", 1.0),
+};
+
 impl Kind for HBeam {
     fn name(&self) -> &'static str {
         "h-beam"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/h-beam.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
+    }
+
+    fn explain_upper_bound(&self, form: &Form, dimension: &str, section: &str) -> Option<String> {
+        let given = |name: &str| form.dimensions.contains(&name);
+        let height = ["h", "h2"].into_iter().find(|name| given(name)).filter(|_| matches!(dimension, "hw" | "h1"))?;
+        Some(format!(
+            "with the overall height {section}.{height} given, a taller web takes the place of flange, which is wider: less volume"
+        ))
     }
 
     fn forms(&self) -> &'static [Form] {

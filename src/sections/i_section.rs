@@ -65,6 +65,10 @@ impl Kind for ISection {
         "i-section"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/i-section.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

@@ -1,6 +1,7 @@
 //! Cross-sections: their dimensions, and area, moments and moduli as expression graphs (so that every derivative is exact).
 //!
-//! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]; nothing else changes.
+//! A new kind is a new file with a [`Kind`] and a line in [`KINDS`]: its defaults, example and explanations are its own, and `mesh ribs`,
+//! `new`, `bounds`, the schema and the reader ask the table. `toy` is such a file, for tests.
 //! Conventions: x = width, y = height, origin at the centroid; `Ix = ∫y² dA` (Eurocode's Iy), `Iy = ∫x² dA`.
 
 mod angle;
@@ -8,6 +9,7 @@ mod box_beam;
 mod build;
 mod channel;
 mod circle;
+pub mod defaults;
 mod h_beam;
 mod i_section;
 mod outline;
@@ -18,11 +20,14 @@ mod rectangle;
 mod rectangles;
 mod superellipse;
 mod tee;
+#[cfg(test)]
+mod toy;
 mod tube;
 
 use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
+pub use defaults::Defaults;
 
 /// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it is drawn by points.
 pub struct Given<'a> {
@@ -78,6 +83,19 @@ pub trait Kind: Sync {
 
     /// The ways to give its dimensions. A file's section must match exactly one.
     fn forms(&self) -> &'static [Form];
+
+    /// A commented problem file with sections of this kind, to start from.
+    fn example(&self) -> &'static str;
+
+    /// Bounds, starts and proportions for those who ask for no others; `None` where it needs points.
+    fn defaults(&self) -> Option<&'static Defaults> {
+        None
+    }
+
+    /// Why, with bounds alone, the volume is least at the upper bound of a dimension of `section`; `None` where nothing explains it.
+    fn explain_upper_bound(&self, _form: &Form, _dimension: &str, _section: &str) -> Option<String> {
+        None
+    }
 
     /// Every name it offers in expressions: dimensions given or derived, aliases, properties.
     fn properties(&self) -> &'static [&'static str];
@@ -154,6 +172,8 @@ pub static KINDS: &[&dyn Kind] = &[
     &i_section::ISection,
     &channel::Channel,
     &angle::Angle,
+    #[cfg(test)]
+    &toy::Diamond,
 ];
 
 /// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.

@@ -23,6 +23,10 @@ impl Kind for Polygon {
         "polygon"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/polygon.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         FORMS
     }

@@ -126,6 +126,10 @@ impl Kind for Polyline {
         "polyline"
     }
 
+    fn example(&self) -> &'static str {
+        include_str!("examples/polyline.toml")
+    }
+
     fn forms(&self) -> &'static [Form] {
         &FORMS
     }

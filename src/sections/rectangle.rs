@@ -1,6 +1,7 @@
 //! `rectangle`: width b, height h.
 
 use super::build::{monomial, radius};
+use super::defaults::{Defaults, length};
 use super::{Form, Given, Kind, Length};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
@@ -11,9 +12,24 @@ pub struct Rectangle;
 
 static FORMS: &[Form] = &[Form { kind: "rectangle", dimensions: &["b", "h"] }];
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: &[length("b", 0.02, 0.5, 0.1), length("h", 0.04, 1.5, 0.3)],
+    proportions: &[("slenderness", "h <= slenderness*b"), ("thickness", "b >= thickness")],
+    thickness: 0.03,
+    height: ("h", 1.0),
+};
+
 impl Kind for Rectangle {
     fn name(&self) -> &'static str {
         "rectangle"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/rectangle.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

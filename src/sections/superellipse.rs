@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::build::monomial;
+use super::defaults::{Defaults, fixed_number, length};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
@@ -14,9 +15,24 @@ pub struct Superellipse;
 
 static FORMS: &[Form] = &[Form { kind: "superellipse", dimensions: &["a", "b", "r"] }];
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: &[length("a", 0.01, 0.25, 0.05), length("b", 0.02, 0.75, 0.15), fixed_number("r", 2.5)],
+    proportions: &[("slenderness", "b <= slenderness*a"), ("thickness", "2*a >= thickness")],
+    thickness: 0.03,
+    height: ("b", 2.0),
+};
+
 impl Kind for Superellipse {
     fn name(&self) -> &'static str {
         "superellipse"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/superellipse.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

@@ -1,6 +1,7 @@
 //! `tee`: a web tw × hw under a flange b × tf, overall height h = hw + tf.
 
 use super::build::{monomial, radius, symmetric_modulus};
+use super::defaults::{Defaults, FLANGE, FLANGE_THICKNESS, PROPORTION, WEB_AND_FLANGE, WEB_THICKNESS};
 use super::rectangles::{Band, on_axis, plastic_modulus, torsion};
 use super::{Form, Given, Kind, Length, evaluate};
 use crate::expression::graph::{Graph, NodeId};
@@ -112,9 +113,24 @@ impl Shape {
     }
 }
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: WEB_AND_FLANGE,
+    proportions: &[("web-slenderness", "hw <= 2*slenderness*tw"), FLANGE, PROPORTION, WEB_THICKNESS, FLANGE_THICKNESS],
+    thickness: 0.006,
+    height: ("hw", 1.0),
+};
+
 impl Kind for Tee {
     fn name(&self) -> &'static str {
         "tee"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/tee.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

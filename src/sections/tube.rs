@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::build::{monomial, radius, symmetric_modulus};
+use super::defaults::{Defaults, length};
 use super::{Form, Given, Kind, circle};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -12,9 +13,24 @@ pub struct Tube;
 
 static FORMS: &[Form] = &[Form { kind: "tube", dimensions: &["d", "t"] }];
 
+static DEFAULTS: Defaults = Defaults {
+    dimensions: &[length("d", 0.05, 1.5, 0.2), length("t", 0.003, 0.02, 0.008)],
+    proportions: &[("slenderness", "d <= 10*slenderness*t"), ("thickness", "t >= thickness")],
+    thickness: 0.004,
+    height: ("d", 1.0),
+};
+
 impl Kind for Tube {
     fn name(&self) -> &'static str {
         "tube"
+    }
+
+    fn example(&self) -> &'static str {
+        include_str!("examples/tube.toml")
+    }
+
+    fn defaults(&self) -> Option<&'static Defaults> {
+        Some(&DEFAULTS)
     }
 
     fn forms(&self) -> &'static [Form] {

@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub const BOX: &str = include_str!("../../src/input/examples/box.toml");
+pub const BOX: &str = include_str!("../../src/sections/examples/box.toml");
 /// A girder whose best design argmin finds by a second opinion.
 pub const TAPERED: &str = include_str!("../data/tapered.toml");
 pub const X: &str = "minimize = \"x\"\n[variables]\nx = { lower = 1, upper = 2 }\ny = { lower = 0, upper = 1 }\n";

@@ -111,7 +111,7 @@ fn every_limit_is_told_with_its_use() {
 
 #[test]
 fn sizes_hold_linked_ones_and_volumes_the_mass() {
-    let place = Place::new(&[("i.toml", include_str!("../../src/input/examples/i-section.toml"))]);
+    let place = Place::new(&[("i.toml", include_str!("../../src/sections/examples/i-section.toml"))]);
     place.write("t.toml", TAPERED);
     let result = place.json("solve i.toml --json");
     let (mass, volume) = (result["mass"].as_f64().expect("a mass"), result["volume"]["total"].as_f64().expect("a volume"));

@@ -82,7 +82,7 @@ pub fn solve(subject: &Subject, choices: &[Choice], settings: &Settings) -> Outc
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
-        class: subject.class,
+        class: subject.class(),
         settings,
         start: &subject.model().meta().start,
         start_multipliers: None,

@@ -46,7 +46,7 @@ pub fn run(path: &Path, draft: &Draft, original: &Path, folder: &Path, seconds: 
     Ok(Run {
         status: outcome.status,
         scope: outcome.scope,
-        class: subject.class,
+        class: subject.class(),
         objective: outcome.objective.map(in_file_units),
         lower_bound: outcome.lower_bound.map(in_file_units),
         message: outcome.message,

@@ -3,6 +3,8 @@
 //! The crate `nlopt` is linked for its static library alone: its safe interface lets closures outlive what they borrow,
 //! aborts when one panics, and hides `force_stop` and `errmsg`.
 
+#![allow(unsafe_code)]
+
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_ulong, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice;

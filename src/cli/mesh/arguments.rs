@@ -9,6 +9,7 @@ use ribopt::mesh::commands::Source;
 use ribopt::mesh::graph::Rule;
 use ribopt::mesh::ribs;
 use ribopt::mesh::section::Plane;
+use ribopt::ribs::law::VolumeLaw;
 
 const CHECK_CODES: &str =
     "Exit codes:\n  0  a clean quad mesh, polygon mesh or network of lines\n  1  it has defects\n  2  no mesh could be read";
@@ -185,15 +186,6 @@ pub struct Slice {
     pub shown: Shown,
 }
 
-/// Volume laws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Law {
-    /// Dimensions vary linearly: the volume of the solids
-    Prismatoid,
-    /// The note's law
-    Frustum,
-}
-
 #[derive(Debug, Args)]
 pub struct Ribs {
     #[command(flatten)]
@@ -216,8 +208,8 @@ pub struct Ribs {
     #[arg(long = "bounds", value_name = "DIM=LOWER:UPPER[:START]", value_parser = values::bounds)]
     pub bounds: Vec<ribs::Bounds>,
     /// Volume law of the ribs
-    #[arg(long, value_enum, default_value_t = Law::Prismatoid)]
-    pub volume: Law,
+    #[arg(long, default_value = "prismatoid", value_parser = values::volume_law())]
+    pub volume: VolumeLaw,
     #[command(flatten)]
     pub limits: RibLimits,
     /// Overwrite files of the folder that were edited

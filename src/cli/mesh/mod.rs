@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 pub use arguments::Stage;
-use arguments::{Check, Joined, Law, Mesh, Method, New, Reconstruct, RibLimits, Ribs, Shown, Slice, Smooth, Trace};
+use arguments::{Check, Joined, Mesh, Method, New, Reconstruct, RibLimits, Ribs, Shown, Slice, Smooth, Trace};
 
 use super::failure::Failure;
 use super::output;
@@ -103,7 +103,7 @@ fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
     let defaults = ribs::Options::with_unit(arguments.kind, arguments.unit);
     let options = ribs::Options {
         bounds: arguments.bounds.clone(),
-        prismatoid: arguments.volume == Law::Prismatoid,
+        volume: arguments.volume,
         force: arguments.force,
         title: arguments.title.clone().unwrap_or(defaults.title.clone()),
         ..with_limits(defaults, &arguments.limits)

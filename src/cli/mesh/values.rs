@@ -2,10 +2,21 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use ribopt::mesh::Vector;
 use ribopt::mesh::graph::Rule;
 use ribopt::mesh::ribs::{Bounds, SectionKind, Unit};
 use ribopt::mesh::section::Plane;
+use ribopt::ribs::law::VolumeLaw;
+
+/// A volume law by its name.
+pub fn volume_law() -> impl TypedValueParser<Value = VolumeLaw> {
+    let laws = [
+        PossibleValue::new(VolumeLaw::Prismatoid.name()).help("Dimensions vary linearly: the volume of the solids"),
+        PossibleValue::new(VolumeLaw::Frustum.name()).help("The note's law"),
+    ];
+    PossibleValuesParser::new(laws).try_map(|name| VolumeLaw::named(&name).ok_or("no volume law"))
+}
 
 /// Degrees.
 pub fn angle(text: &str) -> Result<f64, String> {
@@ -63,7 +74,7 @@ pub fn bounds(text: &str) -> Result<Bounds, String> {
 /// A kind of section that problem folders can be made for.
 pub fn kind(text: &str) -> Result<SectionKind, String> {
     SectionKind::parse(text).ok_or_else(|| {
-        let known = SectionKind::ALL.map(SectionKind::name).join(", ");
+        let known = SectionKind::all().map(SectionKind::name).collect::<Vec<_>>().join(", ");
         format!("ribs can be made of: {known}; for others write their points into sections.csv")
     })
 }

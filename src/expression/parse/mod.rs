@@ -12,41 +12,9 @@ mod requirement;
 #[cfg(test)]
 mod tests;
 
-use thiserror::Error;
-
-use super::Span;
+pub use super::SyntaxError;
 use super::ast::{Ast, Condition, Requirement};
 use cursor::Cursor;
-
-/// What is wrong in a text, where, and what would be right.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{message}")]
-pub struct SyntaxError {
-    /// The bytes concerned; empty at the end of the text where something is missing.
-    pub span: Span,
-    /// What is wrong.
-    pub message: String,
-    /// What to write instead.
-    pub help: Option<String>,
-}
-
-impl SyntaxError {
-    pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
-        SyntaxError { span, message: message.into(), help: None }
-    }
-
-    /// A remedy where there is none that fits better.
-    pub(super) fn or_help(self, help: &str) -> Self {
-        match self.help {
-            Some(_) => self,
-            None => self.help(help),
-        }
-    }
-
-    pub(super) fn help(self, help: impl Into<String>) -> Self {
-        SyntaxError { help: Some(help.into()), ..self }
-    }
-}
 
 /// Where one rule of the grammar gets to: what it read, or the mistake after which nothing sensible follows.
 type Parsed<T> = Result<T, SyntaxError>;

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::expression::Span;
 use crate::expression::ast::{AstKind, Collection};
 use crate::expression::operators::{Binary, Comparison, Fold, Unary};
 

@@ -27,6 +27,7 @@ pub use unit::Unit;
 
 use super::formats::FormatError;
 use super::network::{Network, Rib, write_geometry};
+use crate::ribs::law::VolumeLaw;
 
 /// Bounds and start of one dimension, the same at all sections.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +51,8 @@ pub struct Options {
     pub unit: Option<Unit>,
     /// Bounds that replace the kind's own.
     pub bounds: Vec<Bounds>,
-    /// The volume law of all ribs: `frustum` or `prismatoid`.
-    pub prismatoid: bool,
+    /// The volume law of all ribs.
+    pub volume: VolumeLaw,
     /// Young's modulus E.
     pub elastic_modulus: f64,
     /// Line load q.
@@ -87,7 +88,7 @@ impl Options {
             kind,
             unit,
             bounds: Vec::new(),
-            prismatoid: true,
+            volume: VolumeLaw::Prismatoid,
             elastic_modulus: 210e6 * (metres * metres),
             load: 5.0 * metres,
             sag_ratio: 300.0,
@@ -102,7 +103,7 @@ impl Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options::of(SectionKind::Rectangle)
+        Options::of(SectionKind::default())
     }
 }
 
@@ -222,7 +223,7 @@ fn write_sections(out: &mut dyn Write, network: &Network, kind: SectionKind, bou
 fn write_ribs(out: &mut dyn Write, network: &Network, options: &Options) -> Result<(), csv::Error> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record(["name", "from", "to", "length", "volume", "line", "span", "sag"])?;
-    let law = if options.prismatoid { "prismatoid" } else { "frustum" };
+    let law = options.volume.name();
     for rib in &network.ribs {
         let section = |end: usize| network.sections[rib.sections[end] as usize].as_str();
         let (length, span, sag) = (rib.geometry.length().to_string(), span(rib).to_string(), sag(rib).to_string());

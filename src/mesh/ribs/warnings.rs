@@ -1,6 +1,5 @@
 //! Bounds that do not fit the mesh: most often a mesh in other units.
 
-use super::kinds::EXPONENT;
 use super::{Bounds, Options, Unit, span};
 use crate::mesh::network::Network;
 use crate::mesh::rounded;
@@ -22,7 +21,7 @@ pub(super) fn find(network: &Network, options: &Options, bounds: &[Bounds]) -> V
         ));
     }
     let shortest = network.ribs.iter().map(|rib| rib.geometry.length()).fold(f64::INFINITY, f64::min);
-    for bound in bounds.iter().filter(|bound| bound.dimension != EXPONENT && bound.lower > shortest) {
+    for bound in bounds.iter().filter(|bound| options.kind.is_length(&bound.dimension) && bound.lower > shortest) {
         found.push(format!(
             "the lower bound of {}, {}, is above the shortest rib, {}: the sections are longer than the ribs",
             bound.dimension,

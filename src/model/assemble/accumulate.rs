@@ -7,11 +7,11 @@ use super::kernel_groups::{Groups, Kernels};
 use super::template::{Target, Template};
 use super::walk::{Piece, Sink, Work};
 use crate::expression::tape::TapeError;
-use crate::model::assembled::Affine;
+use crate::model::affine::Affine;
 use crate::model::elements::Label;
 use crate::problem::formula::End;
 use crate::problem::{Dimension, Problem};
-use crate::ribs::law::Law;
+use crate::ribs::law::VolumeLaw;
 use crate::sections::{self, Length};
 
 /// Templates by what they stand for and by shape.
@@ -43,7 +43,7 @@ impl Summation<'_> {
 
 impl Sink for Summation<'_> {
     /// Closed forms where the ends' dimensions are variables of their own.
-    fn volume(&mut self, rib: u32, law: Law, weight: f64) -> bool {
+    fn volume(&mut self, rib: u32, law: VolumeLaw, weight: f64) -> bool {
         let problem = self.problem;
         let ends = [End::From, End::To].map(|end| end_section(problem, rib, end) as usize);
         let form = problem.sections.form[ends[0]];

@@ -8,9 +8,10 @@ use std::rc::Rc;
 use crate::expression::ast::Collection;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::{Binary, Fold};
+pub(super) use crate::problem::evaluate::Item;
 use crate::problem::formula::{End, Formula, Members, Total};
 use crate::problem::{Cells, Column, Dimension, Problem, Property};
-use crate::ribs::law::Law;
+use crate::ribs::law::VolumeLaw;
 
 /// Whose own names a formula speaks of, and which items its group has.
 #[derive(Debug, Clone, Copy)]
@@ -18,14 +19,6 @@ pub(super) struct Context<'a> {
     pub item: Item,
     /// Members of the row's group, for folds over [`Members::Group`].
     pub group: &'a [u32],
-}
-
-/// The item of a scope.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Item {
-    None,
-    Section(u32),
-    Rib(u32),
 }
 
 impl Context<'_> {
@@ -48,32 +41,17 @@ pub(super) fn cell(columns: &[Column], column: u32, row: u32) -> f64 {
 pub(super) fn members<'a>(problem: &Problem, collection: Collection, members: &'a Members, context: Context<'a>) -> Vec<u32> {
     match members {
         Members::Listed(list) => list.to_vec(),
-        Members::All => (0..count(problem, collection)).collect(),
+        Members::All => (0..problem.count(collection)).collect(),
         Members::Group(None) => context.group.to_vec(),
         Members::Group(Some(list)) => context.group.iter().copied().filter(|item| list.binary_search(item).is_ok()).collect(),
     }
 }
 
-fn count(problem: &Problem, collection: Collection) -> u32 {
-    match collection {
-        Collection::Ribs => problem.ribs.names.len() as u32,
-        Collection::Sections => problem.sections.names.len() as u32,
-    }
-}
-
-/// The item a member of a collection is.
-pub(super) fn item_of(collection: Collection, index: u32) -> Item {
-    match collection {
-        Collection::Ribs => Item::Rib(index),
-        Collection::Sections => Item::Section(index),
-    }
-}
-
 /// The law a rib of this declaration follows under a total.
-pub(super) fn law_of(problem: &Problem, rib: u32, total: Total) -> Law {
+pub(super) fn law_of(problem: &Problem, rib: u32, total: Total) -> VolumeLaw {
     match (total, problem.ribs.law[rib as usize]) {
-        (Total::Frustum, _) | (Total::Own, crate::problem::VolumeLaw::Frustum) => Law::Frustum,
-        _ => Law::Prismatoid,
+        (Total::Frustum, _) | (Total::Own, VolumeLaw::Frustum) => VolumeLaw::Frustum,
+        _ => VolumeLaw::Prismatoid,
     }
 }
 
@@ -238,7 +216,7 @@ impl<'a> Lowering<'a> {
             Formula::Over { fold, collection, members: which, body } => {
                 let nodes: Vec<NodeId> = members(self.problem, *collection, which, context)
                     .into_iter()
-                    .map(|index| self.formula(body, context.of(item_of(*collection, index))))
+                    .map(|index| self.formula(body, context.of(Item::of(*collection, index))))
                     .collect();
                 self.fold(*fold, &nodes)
             }
@@ -268,9 +246,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn volume(&mut self, total: Total) -> NodeId {
-        let nodes: Vec<NodeId> = (0..count(self.problem, Collection::Ribs))
-            .map(|rib| self.rib_volume(rib, law_of(self.problem, rib, total)))
-            .collect();
+        let nodes: Vec<NodeId> =
+            (0..self.problem.count(Collection::Ribs)).map(|rib| self.rib_volume(rib, law_of(self.problem, rib, total))).collect();
         self.graph.sum(&nodes)
     }
 

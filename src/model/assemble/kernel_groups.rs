@@ -7,14 +7,14 @@ use crate::expression::kernel::Kernel;
 use crate::expression::tape::{Program, Tape, TapeError};
 use crate::model::elements::Group;
 use crate::ribs::Part;
-use crate::ribs::law::Law;
+use crate::ribs::law::VolumeLaw;
 
 /// Every kernel of a model, numbered.
 #[derive(Default)]
 pub(super) struct Kernels {
     all: Vec<Arc<dyn Kernel>>,
     tapes: HashMap<Program, usize>,
-    parts: HashMap<(Law, bool), usize>,
+    parts: HashMap<(VolumeLaw, bool), usize>,
 }
 
 impl Kernels {
@@ -29,7 +29,7 @@ impl Kernels {
     }
 
     /// The number of the closed form of a part's volume.
-    pub fn part(&mut self, law: Law, difference: bool) -> usize {
+    pub fn part(&mut self, law: VolumeLaw, difference: bool) -> usize {
         let all = &mut self.all;
         *self.parts.entry((law, difference)).or_insert_with(|| {
             all.push(Arc::new(Part::new(law, difference)));

@@ -32,8 +32,10 @@ use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
-use super::assembled::{Affine, RibModel, RowOrigin};
-use super::{Meta, Model, Pattern};
+use super::affine::Affine;
+use super::assembled::{ProblemNames, RibModel, RowOrigin};
+use super::element_model::ElementModel;
+use super::{Meta, Model, NameTable, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 use accumulate::{Summation, Templates};
@@ -74,9 +76,9 @@ fn assemble_with<'a>(
     let (objective, objective_groups) = objective(problem, &facts, &mut kernels)?;
     let rows = Rows::of(problem, sides, &facts, &mut kernels)?;
     let mut model = connect(problem, objective, objective_groups.into_list(), rows);
-    let mut start = std::mem::take(&mut model.meta.start);
+    let mut start = std::mem::take(&mut model.inner.meta.start);
     model.complete(&mut start);
-    model.meta.start = start;
+    model.inner.meta.start = start;
     Ok(model)
 }
 
@@ -210,12 +212,12 @@ fn scattered(rows: &[Affine], jacobian: &Pattern) -> Vec<f64> {
     values
 }
 
-/// Fixes the patterns and tells every element where its derivatives go.
 /// Magnitudes given, 0 for what follows them.
 fn padded(typical: &[f64], n: usize) -> Vec<f64> {
     typical.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect()
 }
 
+/// Fixes the patterns and tells every element where its derivatives go.
 fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
     let (n, m) = (problem.variables.lower.len(), rows.affine.len());
     let mut row_groups = rows.groups.into_list();
@@ -231,6 +233,7 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         group.connect(&jacobian, &hessian);
     }
     let linear_jacobian = scattered(&rows.affine, &jacobian);
+    let row_origin: Arc<[RowOrigin]> = rows.origin.into();
     let meta = Meta {
         lower: problem.variables.lower.clone(),
         upper: problem.variables.upper.clone(),
@@ -242,17 +245,17 @@ fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<
         objective_is_linear: objective_groups.is_empty(),
         jacobian,
         hessian,
+        names: NameTable::new(ProblemNames { problem: Arc::clone(problem), row_origin: Arc::clone(&row_origin) }),
+        ..Meta::default()
     };
-    RibModel {
-        problem: Arc::clone(problem),
+    let inner = ElementModel {
         meta,
         objective,
         row_constants: rows.affine.iter().map(|affine| affine.constant).collect(),
         linear_jacobian,
         objective_groups,
         row_groups,
-        row_origin: rows.origin,
-        members: OnceLock::new(),
-        chunks: OnceLock::new(),
-    }
+        ..ElementModel::default()
+    };
+    RibModel { problem: Arc::clone(problem), inner, row_origin, members: OnceLock::new() }
 }

@@ -5,7 +5,7 @@ use crate::expression::degree::Degrees;
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::tape::{Literals, Program, Source, Tape, TapeError, Workspace};
 use crate::expression::terms;
-use crate::model::assembled::Affine;
+use crate::model::affine::Affine;
 use crate::model::elements::Label;
 
 /// The additive terms of a formula over local slots.

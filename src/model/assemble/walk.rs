@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::dependence::Dependence;
-use super::expression_graph::{Context, Item, Lowering, OwnNumber, item_of, law_of, members};
+use super::expression_graph::{Context, Item, Lowering, OwnNumber, law_of, members};
 use super::template_arguments::TemplateArguments;
 use super::template_key::TemplateKey;
 use crate::expression::graph::NodeId;
@@ -11,14 +11,14 @@ use crate::expression::operators::{Binary, Fold, Unary};
 use crate::expression::tape::TapeError;
 use crate::problem::Problem;
 use crate::problem::formula::{Formula, Total};
-use crate::ribs::law::Law;
+use crate::ribs::law::VolumeLaw;
 
 /// What a piece stands for; pieces of the same work and shape are alike but for their variables and numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Work {
     /// A formula, known by its address: formulas stay where they are while the problem is borrowed.
     Formula(usize),
-    Volume(Law),
+    Volume(VolumeLaw),
 }
 
 /// `weight · formula` of one item.
@@ -48,7 +48,7 @@ impl Piece<'_> {
 /// What is done with the pieces.
 pub(super) trait Sink {
     /// Takes a rib's volume in closed form; false where there is none, and its piece comes instead.
-    fn volume(&mut self, rib: u32, law: Law, weight: f64) -> bool {
+    fn volume(&mut self, rib: u32, law: VolumeLaw, weight: f64) -> bool {
         let _ = (rib, law, weight);
         false
     }
@@ -115,7 +115,7 @@ impl<'a> Walk<'a> {
             Formula::Fold(Fold::Sum, list) => list.iter().try_for_each(|one| self.take_apart(one, weight, context, sink)),
             Formula::Over { fold: Fold::Sum, collection, members: which, body } => {
                 let mut items = members(self.problem, *collection, which, context).into_iter();
-                items.try_for_each(|index| self.take_apart(body, weight, context.of(item_of(*collection, index)), sink))
+                items.try_for_each(|index| self.take_apart(body, weight, context.of(Item::of(*collection, index)), sink))
             }
             Formula::Volume(total) => {
                 let mut ribs = 0..self.problem.ribs.names.len() as u32;

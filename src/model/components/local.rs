@@ -1,47 +1,9 @@
-//! One component of a rib model at a time, evaluated densely from the parent's elements.
+//! One component of a model of elements at a time, evaluated densely from the parent's elements.
 
-use super::members::{self, Members};
-use super::{Components, Local, Partition, submodel::Submodel};
+use super::Local;
+use super::members::{self, ComponentView};
 use crate::expression::kernel::Kernel;
 use crate::expression::tape::Workspace;
-use crate::model::{Model, RibModel};
-
-/// A rib model that falls view.
-#[derive(Clone, Copy)]
-pub(in crate::model) struct ComponentView<'a> {
-    pub model: &'a RibModel,
-    pub members: &'a Members,
-}
-
-impl Components for ComponentView<'_> {
-    fn partition(&self) -> &Partition {
-        &self.members.partition
-    }
-
-    fn constant(&self) -> f64 {
-        self.model.objective.constant
-    }
-
-    fn has_positive_objective(&self) -> bool {
-        self.members.positive
-    }
-
-    fn local(&self) -> Box<dyn Local + '_> {
-        Box::new(RibLocal {
-            view: *self,
-            elements: Vec::new(),
-            inputs: Vec::new(),
-            linear: Vec::new(),
-            affine: Vec::new(),
-            constants: Vec::new(),
-            scratch: Scratch::default(),
-        })
-    }
-
-    fn model(&self, component: usize) -> Box<dyn Model + '_> {
-        Box::new(Submodel::of(*self, component))
-    }
-}
 
 /// One element with its inputs translated: `inputs[first..first + kernel.inputs()]` are places in the component.
 struct Element<'a> {
@@ -60,7 +22,7 @@ struct Scratch {
     inner: Workspace,
 }
 
-struct RibLocal<'a> {
+pub(super) struct DenseComponent<'a> {
     view: ComponentView<'a>,
     elements: Vec<Element<'a>>,
     inputs: Vec<u32>,
@@ -89,7 +51,20 @@ fn gather<'s>(
     (local, &mut room[..out], inner)
 }
 
-impl RibLocal<'_> {
+impl<'a> DenseComponent<'a> {
+    /// At no component yet.
+    pub fn new(view: ComponentView<'a>) -> Self {
+        DenseComponent {
+            view,
+            elements: Vec::new(),
+            inputs: Vec::new(),
+            linear: Vec::new(),
+            affine: Vec::new(),
+            constants: Vec::new(),
+            scratch: Scratch::default(),
+        }
+    }
+
     /// The affine parts: f; overwrites the rows.
     fn affine_values(&self, x: &[f64], rows: &mut [f64]) -> f64 {
         rows.copy_from_slice(&self.constants);
@@ -100,7 +75,7 @@ impl RibLocal<'_> {
     }
 }
 
-impl Local for RibLocal<'_> {
+impl Local for DenseComponent<'_> {
     fn select(&mut self, component: usize) {
         let ComponentView { model, members } = self.view;
         let (partition, pattern) = (&members.partition, &model.meta.jacobian);
@@ -134,7 +109,7 @@ impl Local for RibLocal<'_> {
 
     fn values(&mut self, x: &[f64], rows: &mut [f64]) -> f64 {
         let mut objective = self.affine_values(x, rows);
-        let RibLocal { elements, inputs, scratch, .. } = self;
+        let DenseComponent { elements, inputs, scratch, .. } = self;
         for element in elements.iter() {
             let (x, _, inner) = gather(element, inputs, x, scratch, 0);
             let value = element.weight * element.kernel.value(x, element.data, inner);
@@ -153,7 +128,7 @@ impl Local for RibLocal<'_> {
         jacobian.fill(0.0);
         self.linear.iter().for_each(|&(j, coefficient)| gradient[j as usize] = coefficient);
         self.affine.iter().for_each(|&(row, j, coefficient)| jacobian[row as usize * n + j as usize] = coefficient);
-        let RibLocal { elements, inputs, scratch, .. } = self;
+        let DenseComponent { elements, inputs, scratch, .. } = self;
         for element in elements.iter() {
             let own = element.kernel.inputs();
             let (x, out, inner) = gather(element, inputs, x, scratch, own);
@@ -178,7 +153,7 @@ impl Local for RibLocal<'_> {
     fn hessian(&mut self, x: &[f64], weight: f64, y: &[f64], hessian: &mut [f64]) {
         let n = x.len();
         hessian.fill(0.0);
-        let RibLocal { elements, inputs, scratch, .. } = self;
+        let DenseComponent { elements, inputs, scratch, .. } = self;
         for element in elements.iter() {
             let factor = element.weight * element.row.map_or(weight, |row| y[row as usize]);
             if factor == 0.0 {

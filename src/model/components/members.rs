@@ -1,7 +1,7 @@
 //! Which elements belong to which component, counted once for the whole model.
 
 use super::Partition;
-use crate::model::RibModel;
+use crate::model::element_model::ElementModel;
 use crate::model::elements::Group;
 
 /// Where an element is: its group (objective groups first, then row groups) and its place there.
@@ -23,7 +23,7 @@ pub struct Members {
 
 impl Members {
     /// The components; `None` where there is only one, or a row or an element has no variables.
-    pub(in crate::model) fn of(model: &RibModel) -> Option<Members> {
+    pub(in crate::model) fn of(model: &ElementModel) -> Option<Members> {
         let meta = &model.meta;
         let rows = (0..meta.rows()).map(|i| meta.jacobian.row(i));
         let couplings = model.objective_groups.iter().flat_map(|group| (0..group.len()).map(|index| group.inputs(index)));
@@ -58,13 +58,20 @@ impl Members {
     }
 }
 
+/// A model of elements with its components.
+#[derive(Clone, Copy)]
+pub(in crate::model) struct ComponentView<'a> {
+    pub model: &'a ElementModel,
+    pub members: &'a Members,
+}
+
 /// All groups in the order members count them.
-pub(super) fn groups(model: &RibModel) -> impl Iterator<Item = &Group> {
+pub(super) fn groups(model: &ElementModel) -> impl Iterator<Item = &Group> {
     model.objective_groups.iter().chain(&model.row_groups)
 }
 
 /// The group of this number.
-pub(super) fn group(model: &RibModel, number: u32) -> &Group {
+pub(super) fn group(model: &ElementModel, number: u32) -> &Group {
     let (number, objective) = (number as usize, model.objective_groups.len());
     if number < objective { &model.objective_groups[number] } else { &model.row_groups[number - objective] }
 }

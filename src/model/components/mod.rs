@@ -1,10 +1,9 @@
-//! Models that fall apart: variables that meet in no row and no term of the objective can be solved for by themselves.
+//! Models that decompose: variables that meet in no row and no term of the objective can be solved for by themselves.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `partition` | which variables and rows belong together |
-//! | `members` | which elements of a rib model belong to which component |
-//! | `local` | one component of a rib model, evaluated densely |
+//! | `members` | which elements belong to which component |
+//! | `local` | one component, evaluated densely |
 //! | `submodel` | one component as a model of its own |
 
 mod local;
@@ -12,10 +11,12 @@ mod members;
 mod submodel;
 
 pub use crate::linear_algebra::Partition;
-pub(super) use local::ComponentView;
+pub(super) use members::ComponentView;
 pub use members::Members;
 
 use super::Model;
+use local::DenseComponent;
+use submodel::submodel;
 
 /// A model seen as a sum of small ones over disjoint variables: f(x) = constant + Σ f_k(x_k), each row within one component.
 pub trait Components: Sync {
@@ -35,6 +36,28 @@ pub trait Components: Sync {
 
     /// Component k as a model of its own, for solvers that want one. Variables and rows in the order of [`Partition`].
     fn model(&self, component: usize) -> Box<dyn Model + '_>;
+}
+
+impl Components for ComponentView<'_> {
+    fn partition(&self) -> &Partition {
+        &self.members.partition
+    }
+
+    fn constant(&self) -> f64 {
+        self.model.objective.constant
+    }
+
+    fn has_positive_objective(&self) -> bool {
+        self.members.positive
+    }
+
+    fn local(&self) -> Box<dyn Local + '_> {
+        Box::new(DenseComponent::new(*self))
+    }
+
+    fn model(&self, component: usize) -> Box<dyn Model + '_> {
+        Box::new(submodel(*self, component))
+    }
 }
 
 /// Dense values and derivatives of one component: n variables and m rows in the order of [`Partition`].

@@ -1,58 +1,45 @@
 //! One component as a model of its own, with elements copied from the parent.
 
-use std::sync::{Arc, OnceLock};
-
-use super::local::ComponentView;
-use super::members;
-use crate::model::assembled::Affine;
+use super::members::{self, ComponentView};
+use crate::model::affine::Affine;
+use crate::model::element_model::ElementModel;
 use crate::model::elements::Group;
-use crate::model::{EvaluationError, Meta, Model, Pattern, RibModel};
+use crate::model::{Meta, Pattern};
 
-/// A component; names are the parent's.
-pub(super) struct Submodel {
-    inner: RibModel,
-    /// The parent's number of each variable.
-    variables: Vec<u32>,
-}
-
-impl Submodel {
-    /// Component k.
-    pub fn of(view: ComponentView<'_>, k: usize) -> Submodel {
-        let partition = &view.members.partition;
-        let (parent, variables, rows) = (view.model, partition.variables(k), partition.rows(k));
-        let meta = &parent.meta;
-        let variable = |values: &[f64]| variables.iter().map(|&j| values[j as usize]).collect();
-        let row = |values: &[f64]| rows.iter().map(|&i| values[i as usize]).collect();
-        let place = |j: u32| partition.place(j);
-        let (jacobian, linear_jacobian) = restricted(&meta.jacobian, rows, place, &parent.linear_jacobian);
-        let (hessian, _) = restricted(&meta.hessian, variables, place, &[]);
-        let (objective_groups, row_groups) = copied(view, k, &jacobian, &hessian);
-        let coefficients = &parent.objective.coefficients;
-        let own = |j: &u32| coefficients.binary_search_by_key(j, |entry| entry.0).ok().map(|at| (place(*j), coefficients[at].1));
-        let inner = RibModel {
-            problem: Arc::clone(&parent.problem),
-            objective: Affine { constant: 0.0, coefficients: variables.iter().filter_map(own).collect() },
-            row_constants: row(&parent.row_constants),
-            linear_jacobian,
-            row_origin: rows.iter().map(|&i| parent.row_origin[i as usize]).collect(),
-            meta: Meta {
-                lower: variable(&meta.lower),
-                upper: variable(&meta.upper),
-                start: variable(&meta.start),
-                typical: variable(&meta.typical),
-                row_lower: row(&meta.row_lower),
-                row_upper: row(&meta.row_upper),
-                row_is_linear: rows.iter().map(|&i| meta.row_is_linear[i as usize]).collect(),
-                objective_is_linear: objective_groups.is_empty(),
-                jacobian,
-                hessian,
-            },
-            objective_groups,
-            row_groups,
-            members: OnceLock::new(),
-            chunks: OnceLock::new(),
-        };
-        Submodel { inner, variables: variables.to_vec() }
+/// Component k; names are the parent's.
+pub(super) fn submodel(view: ComponentView<'_>, k: usize) -> ElementModel {
+    let partition = &view.members.partition;
+    let (parent, variables, rows) = (view.model, partition.variables(k), partition.rows(k));
+    let meta = &parent.meta;
+    let variable = |values: &[f64]| variables.iter().map(|&j| values[j as usize]).collect();
+    let row = |values: &[f64]| rows.iter().map(|&i| values[i as usize]).collect();
+    let place = |j: u32| partition.place(j);
+    let (jacobian, linear_jacobian) = restricted(&meta.jacobian, rows, place, &parent.linear_jacobian);
+    let (hessian, _) = restricted(&meta.hessian, variables, place, &[]);
+    let (objective_groups, row_groups) = copied(view, k, &jacobian, &hessian);
+    let coefficients = &parent.objective.coefficients;
+    let own = |j: &u32| coefficients.binary_search_by_key(j, |entry| entry.0).ok().map(|at| (place(*j), coefficients[at].1));
+    ElementModel {
+        objective: Affine { constant: 0.0, coefficients: variables.iter().filter_map(own).collect() },
+        row_constants: row(&parent.row_constants),
+        linear_jacobian,
+        meta: Meta {
+            lower: variable(&meta.lower),
+            upper: variable(&meta.upper),
+            start: variable(&meta.start),
+            typical: variable(&meta.typical),
+            row_lower: row(&meta.row_lower),
+            row_upper: row(&meta.row_upper),
+            row_is_linear: rows.iter().map(|&i| meta.row_is_linear[i as usize]).collect(),
+            objective_is_linear: objective_groups.is_empty(),
+            jacobian,
+            hessian,
+            names: meta.names.selected(variables.to_vec(), rows.to_vec()),
+            ..Meta::default()
+        },
+        objective_groups,
+        row_groups,
+        ..ElementModel::default()
     }
 }
 
@@ -88,38 +75,4 @@ fn copied(view: ComponentView<'_>, k: usize, jacobian: &Pattern, hessian: &Patte
     }
     objective.iter_mut().chain(&mut rows).for_each(|group| group.connect(jacobian, hessian));
     (objective, rows)
-}
-
-impl Model for Submodel {
-    fn meta(&self) -> &Meta {
-        &self.inner.meta
-    }
-
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.inner.objective(x)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.inner.gradient(x, gradient)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.constraints(x, values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.jacobian(x, values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.inner.hessian(x, weight, y, values)
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.inner.variable_name(self.variables[j] as usize)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.inner.row_name(i)
-    }
 }

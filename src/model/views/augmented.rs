@@ -48,6 +48,9 @@ impl<M: Model> Augmented<M> {
             start: inner.start.clone(),
             typical: inner.typical.clone(),
             hessian,
+            curvature: inner.curvature,
+            extra_work: inner.extra_work,
+            names: inner.names.clone(),
             ..Meta::default()
         };
         Some(Augmented { multipliers: vec![0.0; inner.rows()], penalty: 1.0, model, meta, places })
@@ -151,10 +154,6 @@ impl<M: Model> Model for Augmented<M> {
             places.zip(pairs).for_each(|(&place, product)| values[place as usize] += curvature * product);
         }
         Ok(())
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
     }
 }
 

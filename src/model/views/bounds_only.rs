@@ -47,8 +47,4 @@ impl Model for BoundsOnly<'_> {
     fn hessian(&self, x: &[f64], weight: f64, _: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         self.model.hessian(x, weight, &vec![0.0; self.rows], values)
     }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
-    }
 }

@@ -1,6 +1,6 @@
 //! The elastic problem: how little must the rows give way for a point to exist?
 
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern};
 
 /// What slacks have to spare at the start, so that interior methods have room and slacks have a size of their own.
 const ROOM: f64 = 0.1;
@@ -95,6 +95,31 @@ fn row_scales(model: &dyn Model, start: &[f64], reference: &[f64]) -> Result<Vec
     Ok((0..meta.rows()).map(scale).map(|s| if s > 0.0 { s } else { 1.0 }).collect())
 }
 
+/// The chosen rows' names; `slack of row c` for what follows the variables.
+struct ElasticNames {
+    of: NameTable,
+    variables: usize,
+    rows: Vec<usize>,
+    slacks: Vec<usize>,
+}
+
+impl Names for ElasticNames {
+    fn variable(&self, j: usize) -> String {
+        match j.checked_sub(self.variables) {
+            None => self.of.variable(j),
+            Some(at) => format!("slack of row {}", self.row(self.slacks[at])),
+        }
+    }
+
+    fn row(&self, k: usize) -> String {
+        self.of.row(self.rows[k])
+    }
+
+    fn row_place(&self, k: usize) -> Option<String> {
+        self.of.row_place(self.rows[k])
+    }
+}
+
 fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec<f64>) -> Meta {
     let (n, more) = (base.variables(), slacks.len());
     let mut jacobian = Pattern { offsets: vec![0], columns: Vec::new() };
@@ -125,6 +150,14 @@ fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec
         objective_is_linear: true,
         jacobian,
         hessian,
+        curvature: base.curvature,
+        extra_work: base.extra_work,
+        names: NameTable::new(ElasticNames {
+            of: base.names.clone(),
+            variables: n,
+            rows: rows.to_vec(),
+            slacks: slacks.iter().map(|&(k, _)| k).collect(),
+        }),
     }
 }
 
@@ -176,15 +209,6 @@ impl Model for Elastic<'_> {
 
     fn hessian(&self, point: &[f64], _weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         self.model.hessian(self.original(point), 0.0, &self.scatter(y), values)
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        let n = self.variables();
-        if j < n { self.model.variable_name(j) } else { format!("slack of row {}", self.row_name(self.slacks[j - n].0)) }
-    }
-
-    fn row_name(&self, k: usize) -> String {
-        self.model.row_name(self.rows[k])
     }
 }
 

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
+use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
 use crate::sections;
 
@@ -70,7 +70,16 @@ impl FlangeSubstitution {
             start: user.start.clone(),
             typical: user.typical.clone(),
             objective_is_linear: user.objective_is_linear,
-            ..Meta::default()
+            curvature: user.curvature,
+            extra_work: user.extra_work,
+            names: NameTable::new(FlangeNames {
+                of: user.names.clone(),
+                partner: partner.clone(),
+                replaced: replaced.clone(),
+                rows: user.rows(),
+            }),
+            jacobian: Pattern::default(),
+            hessian: Pattern::default(),
         };
         for &(h, hw) in pairs {
             bound_difference(&mut meta, user, h, hw);
@@ -86,6 +95,34 @@ impl FlangeSubstitution {
                 values[*partner as usize] += values[j];
             }
         }
+    }
+}
+
+/// `h - hw` for what replaces h, `bounds of h` for the rows that follow.
+struct FlangeNames {
+    of: NameTable,
+    partner: Vec<Option<u32>>,
+    replaced: Vec<usize>,
+    rows: usize,
+}
+
+impl Names for FlangeNames {
+    fn variable(&self, j: usize) -> String {
+        match self.partner[j] {
+            Some(partner) => format!("{} - {}", self.of.variable(j), self.of.variable(partner as usize)),
+            None => self.of.variable(j),
+        }
+    }
+
+    fn row(&self, i: usize) -> String {
+        match i.checked_sub(self.rows) {
+            Some(at) => format!("bounds of {}", self.of.variable(self.replaced[at])),
+            None => self.of.row(i),
+        }
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        if i < self.rows { self.of.row_place(i) } else { None }
     }
 }
 
@@ -226,20 +263,6 @@ impl Model for FlangeSubstitution {
             }
         }
         Ok(())
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        match self.partner[j] {
-            Some(partner) => format!("{} - {}", self.model.variable_name(j), self.model.variable_name(partner as usize)),
-            None => self.model.variable_name(j),
-        }
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        match i.checked_sub(self.model.meta().rows()) {
-            Some(at) => format!("bounds of {}", self.model.variable_name(self.replaced[at])),
-            None => self.model.row_name(i),
-        }
     }
 }
 

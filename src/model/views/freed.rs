@@ -124,14 +124,6 @@ impl Model for Freed<'_> {
         }
         self.model.hessian(x, 0.0, &all, values)
     }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.model.row_name(i)
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::model::{EvaluationError, Meta, Model, Pattern, Substitution};
+use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 
 /// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
 pub struct Logarithmic {
@@ -57,6 +57,9 @@ impl Logarithmic {
             objective_is_linear: false,
             jacobian: user.jacobian.clone(),
             hessian,
+            curvature: user.curvature,
+            extra_work: user.extra_work,
+            names: NameTable::new(LogNames(user.names.clone())),
         };
         let latest = Mutex::default();
         Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal, latest })
@@ -90,6 +93,23 @@ impl Logarithmic {
             self.meta.jacobian.add_transposed(&jacobian, multipliers, &mut gradient);
         }
         Ok(gradient)
+    }
+}
+
+/// `ln b`
+struct LogNames(NameTable);
+
+impl Names for LogNames {
+    fn variable(&self, j: usize) -> String {
+        format!("ln {}", self.0.variable(j))
+    }
+
+    fn row(&self, i: usize) -> String {
+        self.0.row(i)
+    }
+
+    fn row_place(&self, i: usize) -> Option<String> {
+        self.0.row_place(i)
     }
 }
 
@@ -230,14 +250,6 @@ impl Model for Logarithmic {
             values[slot as usize] += x[j] * gradient[j];
         }
         Ok(())
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        format!("ln {}", self.model.variable_name(j))
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.model.row_name(i)
     }
 }
 

@@ -3,7 +3,7 @@
 //! Every scale is a power of two, so that scaling and unscaling are exact: a bound stays that very bound, and a point
 //! goes there and back bit for bit.
 
-use crate::model::{EvaluationError, Meta, Model};
+use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
 /// The factors of a [`Scaled`] model, all positive and finite.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ impl Scales {
         Scales { variables: vec![1.0; meta.variables()], objective: 1.0, rows: vec![1.0; meta.rows()] }
     }
 
-    /// The scales of SPEC §4 at x: d as given, σ = ‖D∇f(x)‖∞, s_i = max(|limit_i|, ‖D∇c_i(x)‖∞); 1 where that is 0.
+    /// The scales of the certificate (docs/certificate.md) at x: d as given, σ = ‖D∇f(x)‖∞, s_i = max(|limit_i|, ‖D∇c_i(x)‖∞); 1 where that is 0.
     ///
     /// # Errors
     /// Those of the model at x.
@@ -145,48 +145,63 @@ impl Model for Scaled<'_> {
         &self.meta
     }
 
-    fn objective(&self, w: &[f64]) -> Result<f64, EvaluationError> {
-        Ok(self.model.objective(&self.unscaled_point(w))? / self.scales.objective)
+    fn at<'m>(&'m self, w: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        let inner = self.model.at(&self.unscaled_point(w))?;
+        Ok(Box::new(ScaledAt { scales: &self.scales, meta: &self.meta, inner }))
+    }
+}
+
+/// One point in other units.
+struct ScaledAt<'m> {
+    scales: &'m Scales,
+    meta: &'m Meta,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl Evaluation for ScaledAt<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        Ok(self.inner.objective()? / self.scales.objective)
     }
 
-    fn gradient(&self, w: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let value = self.model.gradient(&self.unscaled_point(w), gradient)?;
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let value = self.inner.gradient(gradient)?;
         for (g, d) in gradient.iter_mut().zip(&self.scales.variables) {
             *g *= d / self.scales.objective;
         }
         Ok(value / self.scales.objective)
     }
 
-    fn constraints(&self, w: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.constraints(&self.unscaled_point(w), values)?;
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.constraints(values)?;
         divide(values, &self.scales.rows);
         Ok(())
     }
 
-    fn jacobian(&self, w: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.jacobian(&self.unscaled_point(w), values)?;
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.jacobian(values)?;
         for (value, (row, column)) in values.iter_mut().zip(self.meta.jacobian.iter()) {
             *value *= self.scales.variables[column] / self.scales.rows[row];
         }
         Ok(())
     }
 
-    fn hessian(&self, w: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+    fn hessian(&mut self, weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         let mut y = y.to_vec();
         divide(&mut y, &self.scales.rows);
-        self.model.hessian(&self.unscaled_point(w), weight / self.scales.objective, &y, values)?;
+        self.inner.hessian(weight / self.scales.objective, &y, values)?;
         for (value, (row, column)) in values.iter_mut().zip(self.meta.hessian.iter()) {
             *value *= self.scales.variables[row] * self.scales.variables[column];
         }
         Ok(())
     }
 
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.model.row_name(i)
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut y = y.to_vec();
+        divide(&mut y, &self.scales.rows);
+        let inner: Vec<f64> = direction.iter().zip(&self.scales.variables).map(|(v, d)| v * d).collect();
+        self.inner.hessian_product(weight / self.scales.objective, &y, &inner, product)?;
+        product.iter_mut().zip(&self.scales.variables).for_each(|(value, d)| *value *= d);
+        Ok(())
     }
 }
 

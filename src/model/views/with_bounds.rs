@@ -1,6 +1,6 @@
 //! The same model inside other bounds.
 
-use crate::model::{EvaluationError, Meta, Model};
+use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
 /// A model with its bounds replaced.
 pub struct WithBounds<'a> {
@@ -25,31 +25,7 @@ impl Model for WithBounds<'_> {
         &self.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.model.objective(x)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.model.gradient(x, gradient)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.constraints(x, values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.jacobian(x, values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.hessian(x, weight, y, values)
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        self.model.variable_name(j)
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.model.row_name(i)
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        self.model.at(x)
     }
 }

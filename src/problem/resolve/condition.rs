@@ -1,6 +1,6 @@
 //! `where`: which items, by data, parameters, name and kind.
 
-use super::over::word;
+use super::word;
 use super::{ItemScope, Resolver};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection, Condition};

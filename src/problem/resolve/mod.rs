@@ -4,7 +4,6 @@ mod condition;
 mod name;
 mod over;
 mod profile;
-mod scope;
 
 use super::evaluate::{Evaluation, Item};
 use super::names::Names;
@@ -13,8 +12,8 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
 
+pub use super::item_scope::ItemScope;
 pub use condition::Filter;
-pub use scope::ItemScope;
 
 /// One number's formula, or an array of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -280,4 +279,12 @@ fn join(fold: Fold, mut list: Vec<Formula>) -> Formula {
         Fold::Max => Binary::Max,
     };
     Formula::Constant(numbers.into_iter().reduce(|left, right| op.evaluate(left, right)).unwrap_or(f64::NAN))
+}
+
+/// The collection's word in files.
+fn word(collection: Collection) -> &'static str {
+    match collection {
+        Collection::Ribs => "ribs",
+        Collection::Sections => "sections",
+    }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::condition::Filter;
+use super::word;
 use super::{ItemScope, Resolver, Stage};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection, Condition};
@@ -66,13 +67,5 @@ impl Resolver<'_, '_> {
     /// The same resolver for a while.
     fn reborrowed(&mut self) -> Resolver<'_, '_> {
         Resolver { world: self.world, scope: self.scope, group: self.group, report: self.report }
-    }
-}
-
-/// The collection's word in files.
-pub(super) fn word(collection: Collection) -> &'static str {
-    match collection {
-        Collection::Ribs => "ribs",
-        Collection::Sections => "sections",
     }
 }

@@ -117,7 +117,7 @@ impl Results {
         for path in stale.map(|name| self.folder.file(name)).chain(self.all_logs().map(|log| aside(&log))) {
             remove(&path)?;
         }
-        for name in TABLES.into_iter().chain(PICTURES).map(String::from).chain(super::choice::logs()) {
+        for name in TABLES.into_iter().chain(PICTURES).map(String::from).chain(logs()) {
             remove(&self.folder.file(INTERRUPTED).join(name))?;
         }
         // Only if nothing of anybody else's is in it.
@@ -139,7 +139,7 @@ impl Results {
     }
 
     fn all_logs(&self) -> impl Iterator<Item = PathBuf> + '_ {
-        super::choice::logs().map(|name| self.folder.file(&name))
+        logs().map(|name| self.folder.file(&name))
     }
 }
 
@@ -164,6 +164,11 @@ impl Writer {
         let name = |place: &Path| place.file_name().map(|name| name.to_string_lossy().into_owned());
         self.set.places().filter_map(name).collect()
     }
+}
+
+/// Names of the logs any of them leaves.
+fn logs() -> impl Iterator<Item = String> {
+    crate::problem::settings::BACKENDS.iter().map(|backend| log_name(backend))
 }
 
 /// `log-nlopt.csv`

@@ -9,6 +9,7 @@
 
 mod face;
 mod faces;
+mod parameters;
 mod steihaug;
 mod trust_region;
 
@@ -17,31 +18,7 @@ use super::{Conclusion, Point, Progress, Solver, Why};
 use crate::model::views::augmented::{Augmented, MOST_PRODUCTS, needed_products};
 use crate::model::views::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
-
-/// Violation must fall to this share of the last one, or the penalty grows.
-const ENOUGH_PROGRESS: f64 = 0.25;
-/// Growth of the penalty.
-const GROWTH: f64 = 10.0;
-/// The first penalty of each try, for the scaled model: a larger one follows rows before the objective.
-const FIRST_PENALTIES: [f64; 4] = [1e1, 1e3, 1e5, 1e-1];
-/// The largest penalty: beyond it φ is rounding.
-const LARGEST_PENALTY: f64 = 1e8;
-/// Multipliers of the scaled model are kept within this.
-const LARGEST_MULTIPLIER: f64 = 1e10;
-/// Tightest tolerance of a subproblem, and the residual at which all is done.
-const TIGHTEST: f64 = 1e-11;
-/// Iterations without a better residual after which rounding has ended the progress.
-const PATIENCE: u32 = 12;
-/// A residual is better where it is below this share of the best one.
-const WORTHWHILE: f64 = 0.8;
-/// Iterations after the stop test passed, so that the answer is better than just accepted.
-const EXTRA_ITERATIONS_AFTER_PASS: u32 = 2;
-/// Scales that are off by more than this factor are renewed.
-const STALE: f64 = 30.0;
-/// Renewals of scales at the most.
-const RENEWALS: u32 = 10;
-/// Residual below which a try is not repeated.
-const SOLVED: f64 = 1e-6;
+use parameters::PARAMETERS;
 
 /// Why the rows cannot be taken; `None` where they can.
 pub fn refusal(meta: &Meta) -> Option<String> {
@@ -110,7 +87,7 @@ impl<'a> AugmentedLagrangian<'a> {
             start: x.clone(),
             x: scaled.scaled_point(&x),
             multipliers: known.map_or(vec![0.0; rows], |known| scaled.scaled_multipliers(known)),
-            penalty: FIRST_PENALTIES[0],
+            penalty: PARAMETERS.rho_1[0],
             tolerance: 1e-1,
             infeasibility: f64::INFINITY,
             best: None,
@@ -162,10 +139,10 @@ impl<'a> AugmentedLagrangian<'a> {
         let before = self.scaled().unscaled_point(&self.x);
         self.subproblem.set(&self.multipliers, self.penalty);
         let minimum = minimise(&self.subproblem, &self.x, self.tolerance)?;
-        let penalty_helps = !self.multipliers.is_empty() && self.penalty < LARGEST_PENALTY;
+        let penalty_helps = !self.multipliers.is_empty() && self.penalty < PARAMETERS.rho_max;
         self.escaped = minimum.escaped && !penalty_helps;
         if minimum.escaped && penalty_helps {
-            self.penalty = (GROWTH * self.penalty).min(LARGEST_PENALTY);
+            self.penalty = (PARAMETERS.gamma * self.penalty).min(PARAMETERS.rho_max);
             return Ok((self.point(minimum.stationarity)?, 0.0));
         }
         self.x = minimum.x;
@@ -182,19 +159,19 @@ impl<'a> AugmentedLagrangian<'a> {
         // c − s: violation where a row is active, and how far an inactive one's multiplier is from zero.
         let distance = estimate.iter().zip(&self.multipliers).map(|(new, old)| ((new - old) / self.penalty).abs());
         let infeasibility = distance.fold(0.0, f64::max);
-        self.multipliers = estimate.into_iter().map(|y| y.clamp(-LARGEST_MULTIPLIER, LARGEST_MULTIPLIER)).collect();
-        if infeasibility > (ENOUGH_PROGRESS * self.infeasibility).max(TIGHTEST) {
-            self.penalty = (GROWTH * self.penalty).min(LARGEST_PENALTY);
+        self.multipliers = estimate.into_iter().map(|y| y.clamp(-PARAMETERS.lambda_max, PARAMETERS.lambda_max)).collect();
+        if infeasibility > (PARAMETERS.tau * self.infeasibility).max(PARAMETERS.epsilon) {
+            self.penalty = (PARAMETERS.gamma * self.penalty).min(PARAMETERS.rho_max);
         }
         self.infeasibility = infeasibility;
-        self.tolerance = (0.1 * self.tolerance).min(infeasibility).max(TIGHTEST);
+        self.tolerance = (0.1 * self.tolerance).min(infeasibility).max(PARAMETERS.epsilon);
         Ok(())
     }
 
     fn remember(&mut self, point: &Point, residual: f64) {
         self.idle += 1;
         self.passed = self.passed.map(|iterations| iterations + 1);
-        if residual < WORTHWHILE * self.idle_best {
+        if residual < PARAMETERS.worthwhile * self.idle_best {
             (self.idle, self.idle_best) = (0, residual);
         }
         if self.best.as_ref().is_none_or(|best| residual < best.residual) {
@@ -207,7 +184,7 @@ impl<'a> AugmentedLagrangian<'a> {
 
     /// New units where those in use have become far too large or small.
     fn renew(&mut self, x: &[f64]) -> Result<(), EvaluationError> {
-        if self.renewals >= RENEWALS || self.passed.is_some() {
+        if self.renewals >= PARAMETERS.renewals || self.passed.is_some() {
             return Ok(());
         }
         let scales = match Scales::at(self.evaluator, x, units(&self.start)(x)) {
@@ -238,15 +215,15 @@ impl<'a> AugmentedLagrangian<'a> {
     /// How the run ends, if it does; a try that came to nothing is repeated from the start with another first penalty.
     fn conclusion(&mut self) -> Option<Conclusion> {
         let best = self.best.as_ref()?;
-        if self.escaped && best.point.relative_violation <= SOLVED {
+        if self.escaped && best.point.relative_violation <= PARAMETERS.solved {
             return Some(concluded("the objective falls without end".into()));
         }
-        let is_done =
-            best.residual <= TIGHTEST || self.passed.is_some_and(|iterations| iterations >= EXTRA_ITERATIONS_AFTER_PASS);
-        let is_idle = self.idle > PATIENCE;
-        let is_infeasible = best.point.relative_violation > SOLVED;
-        if !is_done && is_idle && best.residual > SOLVED && self.tries < FIRST_PENALTIES.len() {
-            let penalty = FIRST_PENALTIES[self.tries];
+        let is_done = best.residual <= PARAMETERS.epsilon
+            || self.passed.is_some_and(|iterations| iterations >= PARAMETERS.extra_iterations_after_pass);
+        let is_idle = self.idle > PARAMETERS.patience;
+        let is_infeasible = best.point.relative_violation > PARAMETERS.solved;
+        if !is_done && is_idle && best.residual > PARAMETERS.solved && self.tries < PARAMETERS.rho_1.len() {
+            let penalty = PARAMETERS.rho_1[self.tries];
             self.tries += 1;
             self.x = self.scaled().scaled_point(&self.start);
             self.multipliers.fill(0.0);
@@ -273,7 +250,7 @@ fn subproblem<'a>(evaluator: &'a Evaluator<'a>, scales: Scales) -> Result<Augmen
 }
 
 fn is_stale(old: &Scales, new: &Scales) -> bool {
-    let off = |old: f64, new: f64| old / new > STALE || new / old > STALE;
+    let off = |old: f64, new: f64| old / new > PARAMETERS.stale || new / old > PARAMETERS.stale;
     let rows = old.rows.iter().zip(&new.rows).any(|(&old, &new)| off(old, new));
     rows || off(old.objective, new.objective) || old.variables.iter().zip(&new.variables).any(|(&old, &new)| off(old, new))
 }

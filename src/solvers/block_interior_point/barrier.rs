@@ -15,6 +15,3 @@ pub(super) fn value(mu: f64, (below, above): (f64, f64)) -> f64 {
     let term = |distance: f64| if distance.is_finite() { -mu * distance.ln() } else { 0.0 };
     term(below) + term(above)
 }
-
-/// Push of the start off its bounds.
-pub(super) const PUSH: f64 = 1e-2;

@@ -6,17 +6,8 @@
 use super::arena::Piece;
 use super::barrier::distances;
 use super::frame::Frame;
+use super::parameters::PARAMETERS;
 use crate::linear_algebra::cholesky;
-
-/// ε and δ
-const AUGMENTATION: f64 = 1e-3;
-const PROXIMAL: f64 = 1e-10;
-const STEPS: usize = 12;
-/// The residual at which nothing is left to gain, and the one that is accepted where rounding ends the progress.
-const EXACT: f64 = 1e-14;
-const ACCEPTED: f64 = 1e-12;
-/// Multipliers of the wrong sign up to this are zero.
-const ZERO: f64 = 1e-12;
 
 /// Where a component of w rests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,12 +77,12 @@ impl Crossover {
 
     fn converge(&mut self, frame: &mut Frame<'_>, piece: &mut Piece<'_>) -> bool {
         let mut last = f64::INFINITY;
-        for _ in 0..STEPS {
+        for _ in 0..PARAMETERS.crossover_steps {
             if !frame.first_order(&self.w, piece.header, piece.row_scale) {
                 return false;
             }
             self.error = self.assess(frame);
-            if self.error <= EXACT || (self.error <= ACCEPTED && self.error > 0.5 * last) {
+            if self.error <= PARAMETERS.exact || (self.error <= PARAMETERS.accepted && self.error > 0.5 * last) {
                 return self.free.is_empty() || last < f64::INFINITY || self.bends_up(frame, piece);
             }
             if self.error.is_nan() || self.error >= last || !self.bends_up(frame, piece) {
@@ -130,7 +121,7 @@ impl Crossover {
         for (a, &i) in self.free.iter().enumerate() {
             for (b, &j) in self.free[..=a].iter().enumerate() {
                 let rows: f64 = self.held.iter().map(|&row| frame.jacobian[row * n + i] * frame.jacobian[row * n + j]).sum();
-                self.matrix[a * size + b] = frame.hessian[i * n + j] + rows / AUGMENTATION;
+                self.matrix[a * size + b] = frame.hessian[i * n + j] + rows / PARAMETERS.augmentation;
             }
         }
         cholesky::factor(&mut self.matrix, size)
@@ -149,7 +140,7 @@ impl Crossover {
         self.step.clear();
         for (&j, residual) in self.free.iter().zip(&self.residual) {
             let push: f64 = self.held.iter().map(|&i| frame.jacobian[i * n + j] * (frame.rows[i] - self.w[n + i])).sum();
-            self.step.push(-residual - push / AUGMENTATION);
+            self.step.push(-residual - push / PARAMETERS.augmentation);
         }
         cholesky::solve(&self.matrix, &mut self.step);
         self.schur.clear();
@@ -161,7 +152,7 @@ impl Crossover {
             for b in 0..=a {
                 self.schur[a * held + b] = along(&self.spread[b * free..(b + 1) * free]);
             }
-            self.schur[a * held + a] = self.schur[a * held + a] * (1.0 + PROXIMAL) + f64::MIN_POSITIVE;
+            self.schur[a * held + a] = self.schur[a * held + a] * (1.0 + PARAMETERS.proximal) + f64::MIN_POSITIVE;
         }
         if !cholesky::factor(&mut self.schur, held) {
             return false;
@@ -182,7 +173,7 @@ impl Crossover {
         for i in (0..frame.m).filter(|&i| self.sides[frame.n + i] == Side::Free) {
             let (row, lower, upper) = (frame.rows[i], frame.lower[frame.n + i], frame.upper[frame.n + i]);
             let inside = row.max(lower).min(upper);
-            self.w[frame.n + i] = if (row - inside).abs() <= ACCEPTED * row.abs().max(1.0) { inside } else { row };
+            self.w[frame.n + i] = if (row - inside).abs() <= PARAMETERS.accepted * row.abs().max(1.0) { inside } else { row };
         }
         self.w.iter().zip(&frame.lower).zip(&frame.upper).all(|((w, lower), upper)| lower <= w && w <= upper)
     }
@@ -196,13 +187,13 @@ impl Crossover {
             match self.sides[j] {
                 Side::Free => true,
                 _ if frame.lower[j] == frame.upper[j] => true,
-                Side::Lower => slope >= -ZERO,
-                Side::Upper => slope <= ZERO,
+                Side::Lower => slope >= -PARAMETERS.no_multiplier,
+                Side::Upper => slope <= PARAMETERS.no_multiplier,
             }
         };
         let row = |&i: &usize| match self.sides[n + i] {
-            Side::Upper => self.y[i] >= -ZERO,
-            _ => self.y[i] <= ZERO,
+            Side::Upper => self.y[i] >= -PARAMETERS.no_multiplier,
+            _ => self.y[i] <= PARAMETERS.no_multiplier,
         };
         (0..n).all(bound) && self.held.iter().all(row)
     }

@@ -5,7 +5,7 @@
 //! quotients, of which structural formulas are made, become linear or nearly so, sums of them convex. The other variables are scaled by powers of two.
 
 use super::arena::{Header, Piece};
-use super::barrier::PUSH;
+use super::parameters::PARAMETERS;
 use crate::model::Meta;
 use crate::model::components::{Components, Local, Partition};
 use crate::solvers::barrier::pushed;
@@ -309,7 +309,7 @@ impl<'m> Frame<'m> {
             piece.w[at] = match piece.y[i] {
                 y if y > IDLE => self.upper[at],
                 y if y < -IDLE => self.lower[at],
-                _ => pushed(self.rows[i], self.lower[at], self.upper[at], PUSH),
+                _ => pushed(self.rows[i], self.lower[at], self.upper[at], PARAMETERS.kappa_1),
             };
         }
         for (at, &w) in piece.w.iter().enumerate() {

@@ -16,6 +16,7 @@ mod barrier;
 mod crossover;
 mod frame;
 mod newton;
+mod parameters;
 mod search;
 mod step;
 
@@ -26,20 +27,12 @@ use crate::model::components::Components;
 use crate::model::{Budget, EvaluationError, Evaluator, Model};
 use arena::{Arena, Header, Phase, Piece};
 use frame::Frame;
+use parameters::PARAMETERS;
 use step::Stepper;
-
-/// Components of more variables or rows than this are no work for dense matrices.
-const LARGEST: usize = 64;
-/// Models with fewer variables are left in one piece: there is nothing to gain.
-const FEWEST_VARIABLES: usize = 200;
-/// Components a thread takes at a time.
-const BATCH: usize = 128;
-/// Steps every component takes in one iteration: turning from one to the next costs about as much as a step.
-const STEPS: u32 = 5;
 
 /// The components of a model that is worth taking apart.
 pub fn decomposes(model: &dyn Model) -> Option<Box<dyn Components + '_>> {
-    if model.meta().variables() < FEWEST_VARIABLES { None } else { model.components() }
+    if model.meta().variables() < PARAMETERS.fewest_variables { None } else { model.components() }
 }
 
 /// All components side by side.
@@ -54,7 +47,7 @@ pub struct BlockInteriorPoint<'a> {
 impl<'a> BlockInteriorPoint<'a> {
     /// From `start`, an earlier answer where there are multipliers.
     pub fn new(model: &'a Evaluator<'a>, pieces: &'a dyn Components, start: &'a [f64], multipliers: Option<&'a [f64]>) -> Self {
-        let arena = Arena::new(pieces.partition(), model.meta(), LARGEST);
+        let arena = Arena::new(pieces.partition(), model.meta(), PARAMETERS.largest);
         BlockInteriorPoint { model, pieces, start, multipliers, arena }
     }
 
@@ -65,9 +58,9 @@ impl<'a> BlockInteriorPoint<'a> {
         let stepper = || Stepper::new(Frame::new(pieces, meta, start), multipliers);
         let mut running = self.arena.pieces(pieces.partition(), |phase| matches!(phase, Phase::New | Phase::Running));
         let may_go_on = || model.budget().check(model.evaluations()).is_ok();
-        running.par_chunks_mut(BATCH).for_each_init(stepper, |stepper, batch| {
+        running.par_chunks_mut(PARAMETERS.batch).for_each_init(stepper, |stepper, batch| {
             if may_go_on() {
-                batch.iter_mut().for_each(|piece| stepper.advance(piece, STEPS));
+                batch.iter_mut().for_each(|piece| stepper.advance(piece, PARAMETERS.steps));
             }
         });
         let mut hard = self.arena.pieces(pieces.partition(), |phase| phase == Phase::Hard);

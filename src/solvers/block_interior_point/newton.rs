@@ -8,14 +8,8 @@
 use super::arena::Piece;
 use super::barrier::{distances, force};
 use super::frame::Frame;
+use super::parameters::PARAMETERS;
 use crate::linear_algebra::cholesky;
-
-/// First, smallest and largest regularisation δ, and its factors (Wächter & Biegler 2006, Algorithm IC).
-const FIRST: f64 = 1e-4;
-const SMALLEST: f64 = 1e-12;
-const LARGEST: f64 = 1e12;
-const DECREASE: f64 = 1.0 / 3.0;
-const INCREASE: f64 = 8.0;
 
 /// Room for one step; one per thread.
 #[derive(Default)]
@@ -42,12 +36,8 @@ impl Newton {
         let mut delta = 0.0;
         // Where the matrix is all but singular the step is endless, and of no more use than where it is indefinite.
         while !(self.factorise(frame.n, delta) && self.solve(frame, piece)) {
-            delta = match (delta, last) {
-                (0.0, 0.0) => FIRST,
-                (0.0, last) => (last * DECREASE).max(SMALLEST),
-                (now, _) => now * INCREASE,
-            };
-            if delta > LARGEST {
+            delta = if delta == 0.0 { PARAMETERS.inertia.begin(last) } else { delta * PARAMETERS.inertia.growth(last) };
+            if delta > PARAMETERS.inertia.largest {
                 return false;
             }
             piece.header.regularisation = delta;

@@ -4,17 +4,8 @@ use super::arena::Piece;
 use super::barrier::{self, distances, force};
 use super::frame::Frame;
 use super::newton::Newton;
+use super::parameters::PARAMETERS;
 use crate::solvers::barrier::longest_multiplier_step;
-
-const LEAST_TAU: f64 = 0.99;
-const ARMIJO: f64 = 1e-4;
-const SHORTEST: f64 = 1e-9;
-/// Bound multipliers stay within this factor of the central ones.
-const CENTRAL: f64 = 1e10;
-/// What is left of a penalty from one iteration to the next.
-const FADING: f64 = 0.3;
-/// A slack keeps this share of its distance to its limit at the least, however its row moves.
-const KEPT: f64 = 0.1;
 
 /// A thread's room.
 #[derive(Default)]
@@ -54,9 +45,9 @@ impl Search {
         let slope: f64 = newton.slope.iter().zip(&newton.w).map(|(slope, step)| slope * step).sum();
         let needed = if violation > 0.0 { slope / (0.9 * violation) } else { 0.0 };
         // One wild step must not weigh down all that follow.
-        piece.header.penalty = (FADING * piece.header.penalty).max(1.5 * largest(&newton.y)).max(needed);
+        piece.header.penalty = (PARAMETERS.penalty_kept * piece.header.penalty).max(1.5 * largest(&newton.y)).max(needed);
         let merit = Merit { mu: piece.header.mu, penalty: piece.header.penalty };
-        let tau = LEAST_TAU.max(1.0 - merit.mu);
+        let tau = PARAMETERS.barrier.tau(merit.mu);
         let (begin, fall) = (merit.at(frame, piece.w), slope - merit.penalty * violation);
         let longest = longest(frame, newton, piece, tau);
         let room = 10.0 * f64::EPSILON * begin.abs().max(1.0);
@@ -72,14 +63,14 @@ impl Search {
                 frame.values(&self.trial, piece.header, piece.row_scale)
             };
             self.settle_slacks(frame, merit);
-            if valid && merit.at(frame, &self.trial) <= begin + ARMIJO * length * fall + room {
+            if valid && merit.at(frame, &self.trial) <= begin + PARAMETERS.eta * length * fall + room {
                 if !is_first && !frame.first_order(&self.trial, piece.header, piece.row_scale) {
                     return false;
                 }
                 break;
             }
             length *= 0.5;
-            if length < SHORTEST {
+            if length < PARAMETERS.shortest {
                 return false;
             }
         }
@@ -94,7 +85,7 @@ impl Search {
         for (i, &row) in frame.rows.iter().enumerate() {
             let (slack, lower, upper) = (&mut self.trial[n + i], frame.lower[n + i], frame.upper[n + i]);
             let (below, above) = distances(*slack, lower, upper);
-            let kept = |distance: f64| (merit.mu / merit.penalty).min(distance).max(KEPT * distance);
+            let kept = |distance: f64| (merit.mu / merit.penalty).min(distance).max(PARAMETERS.distance_kept * distance);
             let (low, high) = (lower + kept(below), upper - kept(above));
             let settled = match (lower.is_finite(), upper.is_finite()) {
                 (true, true) if low <= high => row.max(low).min(high),
@@ -125,7 +116,7 @@ impl Search {
             let (below, above) = distances(piece.w[at], frame.lower[at], frame.upper[at]);
             let central = |z: f64, distance: f64| {
                 let middle = force(mu, distance);
-                z.clamp(middle / CENTRAL, middle * CENTRAL)
+                z.clamp(middle / PARAMETERS.barrier.kappa_sigma, middle * PARAMETERS.barrier.kappa_sigma)
             };
             if frame.lower[at] < frame.upper[at] {
                 piece.z_lower[at] = central(piece.z_lower[at] + dual * newton.z_lower[at], below);

@@ -1,28 +1,16 @@
 //! Iterations of the small interior point: a primal–dual barrier method with an ℓ₁ merit function on dense matrices.
 //!
-//! It is the method of the sparse interior point cut down to what a handful of variables and inequalities need. What it
-//! cannot do it leaves to its big relative: no restoration, no equalities, no saddles.
+//! It is the method of the sparse interior point cut down to what a handful of variables and inequalities need. It has
+//! no restoration, takes no equalities and leaves no saddles: such components go to the sparse interior point.
 
 use super::arena::{Phase, Piece};
-use super::barrier::{PUSH, distances, force};
+use super::barrier::{distances, force};
 use super::crossover::Crossover;
 use super::frame::Frame;
 use super::newton::Newton;
+use super::parameters::PARAMETERS;
 use super::search::Search;
 use crate::solvers::barrier::pushed;
-
-/// First and last barrier parameter, and how it falls.
-const FIRST_BARRIER: f64 = 0.1;
-const LAST_BARRIER: f64 = 1e-11;
-const LINEAR_DECREASE: f64 = 0.2;
-const SUPERLINEAR_DECREASE: f64 = 1.5;
-const BARRIER_TOLERANCE: f64 = 10.0;
-/// The scaled optimality error that ends the iterations.
-const TOLERANCE: f64 = 1e-10;
-/// From this barrier parameter on the active set is tried.
-const CROSSOVER: f64 = 1e-3;
-/// Iterations after which the big relative takes over.
-const PATIENCE: u32 = 200;
 
 /// A thread's room.
 pub(super) struct Stepper<'m> {
@@ -59,7 +47,7 @@ impl<'m> Stepper<'m> {
             go = self.iterate(piece);
         }
         piece.header.phase = match go {
-            Go::On if piece.header.iterations < PATIENCE => Phase::Running,
+            Go::On if piece.header.iterations < PARAMETERS.patience => Phase::Running,
             Go::Solved => Phase::Solved,
             _ => Phase::Hard,
         };
@@ -94,14 +82,14 @@ impl<'m> Stepper<'m> {
         }
         let frame = &self.frame;
         for at in frame.n..frame.n + frame.m {
-            piece.w[at] = pushed(frame.rows[at - frame.n], frame.lower[at], frame.upper[at], PUSH);
+            piece.w[at] = pushed(frame.rows[at - frame.n], frame.lower[at], frame.upper[at], PARAMETERS.kappa_1);
         }
-        piece.header.mu = FIRST_BARRIER;
+        piece.header.mu = PARAMETERS.barrier.mu_0;
         for (at, &w) in piece.w.iter().enumerate() {
             let (below, above) = distances(w, frame.lower[at], frame.upper[at]);
             let fixed = frame.lower[at] == frame.upper[at];
-            piece.z_lower[at] = if fixed { 0.0 } else { force(FIRST_BARRIER, below) };
-            piece.z_upper[at] = if fixed { 0.0 } else { force(FIRST_BARRIER, above) };
+            piece.z_lower[at] = if fixed { 0.0 } else { force(PARAMETERS.barrier.mu_0, below) };
+            piece.z_upper[at] = if fixed { 0.0 } else { force(PARAMETERS.barrier.mu_0, above) };
         }
         for (i, y) in piece.y.iter_mut().enumerate() {
             *y = piece.z_upper[frame.n + i] - piece.z_lower[frame.n + i];
@@ -113,7 +101,7 @@ impl<'m> Stepper<'m> {
     fn push_start(&self, piece: &mut Piece<'_>) {
         let frame = &self.frame;
         for (at, start) in frame.start(piece.component).enumerate() {
-            piece.w[at] = pushed(start, frame.lower[at], frame.upper[at], PUSH);
+            piece.w[at] = pushed(start, frame.lower[at], frame.upper[at], PARAMETERS.kappa_1);
         }
     }
 
@@ -135,13 +123,14 @@ impl<'m> Stepper<'m> {
 
     /// One iteration; the frame holds first derivatives at the iterate before and after.
     fn iterate(&mut self, piece: &mut Piece<'_>) -> Go {
-        let close = piece.header.error <= TOLERANCE;
-        while piece.header.mu > LAST_BARRIER && self.error(piece, piece.header.mu) <= BARRIER_TOLERANCE * piece.header.mu {
-            let mu = piece.header.mu;
-            piece.header.mu = LAST_BARRIER.max((LINEAR_DECREASE * mu).min(mu.powf(SUPERLINEAR_DECREASE)));
+        let close = piece.header.error <= PARAMETERS.epsilon_tol;
+        while piece.header.mu > PARAMETERS.barrier.mu_last
+            && PARAMETERS.barrier.is_solved(self.error(piece, piece.header.mu), piece.header.mu)
+        {
+            piece.header.mu = PARAMETERS.barrier.next(piece.header.mu);
             piece.header.penalty = 0.0;
         }
-        if close || (piece.header.mu <= CROSSOVER && piece.header.mu < piece.header.tried) {
+        if close || (piece.header.mu <= PARAMETERS.crossover && piece.header.mu < piece.header.tried) {
             piece.header.tried = piece.header.mu;
             if self.crossover.attempt(&mut self.frame, piece) {
                 self.note_crossover(piece);
@@ -155,7 +144,7 @@ impl<'m> Stepper<'m> {
         if !self.frame.second_order(piece.y, piece.header, piece.row_scale) || !self.newton.compute(&self.frame, piece) {
             return Go::Hard;
         }
-        if close && piece.header.mu <= LAST_BARRIER {
+        if close && piece.header.mu <= PARAMETERS.barrier.mu_last {
             return Go::Solved;
         }
         if !self.search.descend(&mut self.frame, &self.newton, piece) {

@@ -3,11 +3,7 @@
 //! Wächter & Biegler (2006), equations (3), (8), (12), (13), (15), (16), and §3.7 for the damping of one-sided bounds.
 
 use super::form::Form;
-
-/// κ_d: a linear pull that keeps variables with one bound from running off.
-const DAMPING: f64 = 1e-5;
-/// κ_Σ: bound multipliers may differ from μ/slack by this factor.
-const MULTIPLIER_RATIO: f64 = 1e10;
+use super::parameters::PARAMETERS;
 
 /// +1 where only the lower bound is there, −1 where only the upper one is, else 0.
 fn one_sided(lower: f64, upper: f64) -> f64 {
@@ -28,7 +24,7 @@ pub(super) fn value(form: &Form<'_>, w: &[f64], mu: f64) -> f64 {
             damping += if side < 0.0 { upper - w } else { 0.0 };
         }
     }
-    mu * (DAMPING * damping - product_log)
+    mu * (PARAMETERS.kappa_d * damping - product_log)
 }
 
 fn log(slack: f64) -> f64 {
@@ -40,13 +36,13 @@ pub(super) fn add_gradient(form: &Form<'_>, w: &[f64], mu: f64, gradient: &mut [
     for (j, gradient) in gradient.iter_mut().enumerate() {
         let (lower, upper) = (form.lower[j], form.upper[j]);
         // An infinite bound contributes ±0.
-        *gradient += mu * (1.0 / (upper - w[j]) - 1.0 / (w[j] - lower) + DAMPING * one_sided(lower, upper));
+        *gradient += mu * (1.0 / (upper - w[j]) - 1.0 / (w[j] - lower) + PARAMETERS.kappa_d * one_sided(lower, upper));
     }
 }
 
 /// The damping's part of the gradient alone.
 pub(super) fn damping(form: &Form<'_>, j: usize, mu: f64) -> f64 {
-    mu * DAMPING * one_sided(form.lower[j], form.upper[j])
+    mu * PARAMETERS.kappa_d * one_sided(form.lower[j], form.upper[j])
 }
 
 /// Σ = z_l/(w − l) + z_u/(u − w).
@@ -103,5 +99,5 @@ pub(super) fn reset_multipliers(form: &Form<'_>, w: &[f64], mu: f64, lower: &mut
 }
 
 fn within_ratio(z: f64, central: f64) -> f64 {
-    z.min(central * MULTIPLIER_RATIO).max(central / MULTIPLIER_RATIO)
+    z.min(central * PARAMETERS.barrier.kappa_sigma).max(central / PARAMETERS.barrier.kappa_sigma)
 }

@@ -1,10 +1,11 @@
 //! How a run begins: where, with which multipliers, how far from the bounds.
 
-use super::engine::{Best, Direction, Engine, FIRST_BARRIER, WARM_BARRIER};
+use super::engine::{Best, Direction, Engine};
 use super::filter::Filter;
 use super::form::{Form, Source};
 use super::iterate::Errors;
 use super::kkt::Kkt;
+use super::parameters::PARAMETERS;
 use super::polish;
 use super::start;
 use crate::model::EvaluationError;
@@ -39,9 +40,9 @@ impl<'a> Engine<'a> {
         let warm = beginning.multipliers.is_some();
         let mut form = Form::new(model, beginning.x, beginning.magnitudes);
         form.ease = beginning.ease;
-        let push = beginning.push.unwrap_or(if warm { start::WARM_PUSH } else { start::COLD_PUSH });
-        let mu = beginning.mu.unwrap_or(if warm { WARM_BARRIER } else { FIRST_BARRIER });
-        let slack_push = if form.is_large() && !warm { start::LARGE_PUSH } else { push };
+        let push = beginning.push.unwrap_or(if warm { PARAMETERS.kappa_1_warm } else { PARAMETERS.kappa_1 });
+        let mu = beginning.mu.unwrap_or(if warm { PARAMETERS.mu_warm } else { PARAMETERS.barrier.mu_0 });
+        let slack_push = if form.is_large() && !warm { PARAMETERS.kappa_1_large } else { push };
         let mut iterate = start::place(&mut form, beginning.x, push, slack_push)?;
         let mut kkt =
             Kkt::new(&form).map_err(|error| EvaluationError::Invalid { term: "KKT matrix".into(), cause: error.to_string() })?;

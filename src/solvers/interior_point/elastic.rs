@@ -5,7 +5,7 @@
 //! ```
 //! Wächter & Biegler (2006), equation (29), with a violation per side of each row.
 
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern};
 
 /// A violation of one row on one side.
 struct Violation {
@@ -61,12 +61,38 @@ impl<'a> Elastic<'a> {
         let (hessian, hessian_places, diagonal_places) = with_diagonal(&of.hessian);
         meta.hessian = hessian;
         meta.hessian.offsets.resize(n + violations.len() + 1, meta.hessian.columns.len());
+        let violated = violations.iter().map(|violation| rows[violation.row].0).collect();
+        let chosen = rows.iter().map(|&(row, _)| row).collect();
+        meta.names = NameTable::new(ViolationNames { of: of.names.clone(), variables: n, violated, rows: chosen });
         let proximity = x.iter().map(|x| zeta / x.abs().max(1.0).powi(2)).collect();
         Ok(Elastic { base, meta, rows, violations, reference: x.to_vec(), proximity, hessian_places, diagonal_places })
     }
 
     fn split<'x>(&self, x: &'x [f64]) -> (&'x [f64], &'x [f64]) {
         x.split_at(self.reference.len())
+    }
+}
+
+/// `violation of c` for what follows the variables.
+struct ViolationNames {
+    of: NameTable,
+    variables: usize,
+    /// The base's row of each violation.
+    violated: Vec<usize>,
+    /// The base's number of each row.
+    rows: Vec<usize>,
+}
+
+impl Names for ViolationNames {
+    fn variable(&self, j: usize) -> String {
+        match j.checked_sub(self.variables) {
+            None => self.of.variable(j),
+            Some(at) => format!("violation of {}", self.of.row(self.violated[at])),
+        }
+    }
+
+    fn row(&self, i: usize) -> String {
+        self.of.row(self.rows[i])
     }
 }
 
@@ -162,16 +188,5 @@ impl Model for Elastic<'_> {
             values[place] += weight * proximity;
         }
         Ok(())
-    }
-
-    fn variable_name(&self, j: usize) -> String {
-        match j.checked_sub(self.reference.len()) {
-            None => self.base.variable_name(j),
-            Some(at) => format!("violation of {}", self.row_name(self.violations[at].row)),
-        }
-    }
-
-    fn row_name(&self, i: usize) -> String {
-        self.base.row_name(self.rows[i].0)
     }
 }

@@ -8,31 +8,12 @@ use super::form::Form;
 use super::iterate::{Errors, Iterate};
 use super::kkt::{Blocks, Kkt, Sides};
 use super::line_search::Search;
+use super::parameters::PARAMETERS;
 use super::restoration::Restoration;
 use super::vectors::moved;
 use super::watchdog::Watchdog;
 use crate::model::EvaluationError;
 use crate::solvers::barrier::longest_multiplier_step;
-
-/// The optimality error at which nothing is left to gain.
-pub(super) const TOLERANCE: f64 = 1e-11;
-/// The optimality error below which a run that makes no more progress has converged.
-pub(super) const ACCEPTABLE: f64 = 1e-6;
-/// Iterations without a better optimality error after which a run has stalled: near a solution, and far from one.
-const PATIENCE_NEAR: u64 = 15;
-const PATIENCE_FAR: u64 = 1500;
-/// δ_c where only the number of negative eigenvalues is wanted.
-pub(super) const LAST_REGULARISATION: f64 = 1e-10;
-/// First and last barrier parameter, κ_μ, θ_μ and κ_ε of its decrease, τ_min.
-pub(super) const FIRST_BARRIER: f64 = 0.1;
-pub(super) const WARM_BARRIER: f64 = 1e-6;
-pub(super) const LAST_BARRIER: f64 = 1e-12;
-const LINEAR_DECREASE: f64 = 0.2;
-const SUPERLINEAR_DECREASE: f64 = 1.5;
-const BARRIER_TOLERANCE: f64 = 10.0;
-const LEAST_TAU: f64 = 0.99;
-/// Scaled objectives below this, or variables beyond, are on their way to infinity.
-const DIVERGING: f64 = 1e20;
 
 /// Why the iterations ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +87,7 @@ pub(super) struct Best {
 impl Engine<'_> {
     /// τ of the fraction-to-the-boundary rule.
     pub fn tau(&self) -> f64 {
-        LEAST_TAU.max(1.0 - self.mu)
+        PARAMETERS.barrier.tau(self.mu)
     }
 
     /// One iteration. `Some`: it was the last.
@@ -155,34 +136,34 @@ impl Engine<'_> {
 
     fn ending(&self) -> Option<Ending> {
         let idle = self.iterations - self.best.iteration;
-        if self.errors.largest() <= TOLERANCE {
+        if self.errors.largest() <= PARAMETERS.epsilon_tol {
             return Some(Ending::Optimal);
         }
-        if self.best.error <= ACCEPTABLE && idle > PATIENCE_NEAR {
+        if self.best.error <= PARAMETERS.epsilon_acceptable && idle > PARAMETERS.patience_near {
             return Some(Ending::Acceptable);
         }
-        if self.iterate.objective < -DIVERGING && self.errors.primal < 1e-6 {
+        if self.iterate.objective < -PARAMETERS.diverging && self.errors.primal < 1e-6 {
             let value = self.iterate.objective / self.form.objective_scale;
             return Some(Ending::Diverging(format!("the objective falls below {value:.1e} and on; it diverges")));
         }
-        if let Some(j) = (0..self.form.variables()).find(|&j| self.iterate.w[j].abs() > DIVERGING) {
+        if let Some(j) = (0..self.form.variables()).find(|&j| self.iterate.w[j].abs() > PARAMETERS.diverging) {
             let name = self.form.model.variable_name(self.form.free[j]);
             return Some(Ending::Diverging(format!("{name} grows beyond all bounds; the iterates diverge")));
         }
-        (idle > PATIENCE_FAR).then(|| Ending::Stuck(format!("no progress in {PATIENCE_FAR} iterations")))
+        (idle > PARAMETERS.patience_far).then(|| Ending::Stuck(format!("no progress in {} iterations", PARAMETERS.patience_far)))
     }
 
     /// Lowers μ while the barrier problem is solved well enough: equation (7).
     fn decrease_barrier(&mut self) {
         let forced = self.tiny_steps >= 2;
         let mut force = forced;
-        while self.mu > LAST_BARRIER {
+        while self.mu > PARAMETERS.barrier.mu_last {
             let error = self.iterate.errors(&self.form, self.mu, &mut self.right).largest();
-            if error > BARRIER_TOLERANCE * self.mu && !force {
+            if error > PARAMETERS.barrier.kappa_epsilon * self.mu && !force {
                 break;
             }
             force = false;
-            self.mu = LAST_BARRIER.max((LINEAR_DECREASE * self.mu).min(self.mu.powf(SUPERLINEAR_DECREASE)));
+            self.mu = PARAMETERS.barrier.next(self.mu);
             self.filter.reset(self.largest_violation);
             self.tiny_steps = 0;
         }
@@ -237,7 +218,7 @@ impl Engine<'_> {
                 Search::Failed => return self.line_search_failed(),
             };
             self.tiny_steps = if matches!(found, Search::Tiny(_)) { self.tiny_steps + 1 } else { 0 };
-            if self.tiny_steps > 2 && self.mu <= LAST_BARRIER {
+            if self.tiny_steps > 2 && self.mu <= PARAMETERS.barrier.mu_last {
                 return Ok(Some(self.end_of_progress("the steps are below rounding")));
             }
             match self.take(length) {
@@ -270,7 +251,7 @@ impl Engine<'_> {
     /// Sets the trial point's multipliers: y by the primal length, bounds' by their own.
     fn step_multipliers(&mut self, length: f64) {
         let Self { form, iterate, trial, direction, mu, .. } = self;
-        let tau = LEAST_TAU.max(1.0 - *mu);
+        let tau = PARAMETERS.barrier.tau(*mu);
         barrier::multiplier_steps(
             form,
             &iterate.w,
@@ -317,6 +298,6 @@ impl Engine<'_> {
 
     /// The ending where nothing moves any more.
     pub fn end_of_progress(&self, why: &str) -> Ending {
-        if self.best.error <= ACCEPTABLE { Ending::Acceptable } else { Ending::Stuck(why.into()) }
+        if self.best.error <= PARAMETERS.epsilon_acceptable { Ending::Acceptable } else { Ending::Stuck(why.into()) }
     }
 }

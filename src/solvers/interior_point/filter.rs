@@ -1,9 +1,7 @@
 //! The filter of Fletcher & Leyffer as in Wächter & Biegler (2006), §2.3: pairs of violation and barrier objective that
 //! a trial point must not be dominated by.
 
-/// Margins γ_θ and γ_φ.
-pub(super) const VIOLATION_MARGIN: f64 = 1e-5;
-pub(super) const OBJECTIVE_MARGIN: f64 = 1e-8;
+use super::parameters::PARAMETERS;
 
 /// Pairs (θ, φ) that bound the region of rejected points, margins included.
 #[derive(Debug, Default)]
@@ -27,7 +25,7 @@ impl Filter {
 
     /// Rejects from now on what does not improve on this point by the margins.
     pub fn add(&mut self, violation: f64, objective: f64) {
-        let entry = ((1.0 - VIOLATION_MARGIN) * violation, objective - OBJECTIVE_MARGIN * violation);
+        let entry = ((1.0 - PARAMETERS.gamma_theta) * violation, objective - PARAMETERS.gamma_phi * violation);
         self.entries.retain(|&(v, o)| v < entry.0 || o < entry.1);
         self.entries.push(entry);
     }

@@ -4,14 +4,12 @@
 //! `c(x) − s` for an inequality. Rows without any limit and fixed variables are gone. Variables are scaled by powers of
 //! two, so that bounds survive the way there and back bit for bit.
 
+use super::parameters::PARAMETERS;
 use std::ops::Deref;
 use std::sync::Arc;
 
 use super::scaling;
 use crate::model::{EvaluationError, Model, Pattern};
-
-/// Number of variables from which on a problem counts as large.
-const LARGE: usize = 1000;
 
 /// A model given, or made for the purpose (the restoration's).
 pub(super) enum Source<'a> {
@@ -158,7 +156,7 @@ impl<'a> Form<'a> {
 
     /// Whether a run goes about it as a large problem: slacks well inside, steps without the filter, no more digits than are needed.
     pub fn is_large(&self) -> bool {
-        self.variables() >= LARGE
+        self.variables() >= PARAMETERS.large
     }
 
     /// Variables and slacks: the length of w.
@@ -284,6 +282,16 @@ impl<'a> Form<'a> {
             (below / lower.abs().max(1.0)).max(above / upper.abs().max(1.0)).max(0.0)
         };
         (0..self.rows.len()).map(beyond).fold(0.0, f64::max)
+    }
+
+    /// The larger limit of each row by size, unscaled; 0 where it has none.
+    pub fn limit_sizes(&self) -> Vec<f64> {
+        let meta = self.model.meta();
+        let size = |&row: &usize| {
+            let limits = [meta.row_lower[row], meta.row_upper[row]].into_iter().filter(|limit| limit.is_finite());
+            limits.map(f64::abs).fold(0.0, f64::max)
+        };
+        self.rows.iter().map(size).collect()
     }
 
     /// The model's row multipliers from scaled ones.

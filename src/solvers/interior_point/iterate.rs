@@ -2,11 +2,9 @@
 
 use super::barrier;
 use super::form::Form;
+use super::parameters::PARAMETERS;
 use super::vectors::{norm_max, norm_sum};
 use crate::model::EvaluationError;
-
-/// s_max: multipliers of this average size relax the optimality error no more.
-const LARGEST_MULTIPLIER: f64 = 100.0;
 
 /// w, multipliers, and values at w.
 #[derive(Clone)]
@@ -99,7 +97,7 @@ impl Iterate {
             }
         }
         let bound_sum = norm_sum(&self.z_lower) + norm_sum(&self.z_upper);
-        let scale = |sum: f64, count: usize| (sum / count.max(1) as f64).max(LARGEST_MULTIPLIER) / LARGEST_MULTIPLIER;
+        let scale = |sum: f64, count: usize| (sum / count.max(1) as f64).max(PARAMETERS.s_max) / PARAMETERS.s_max;
         Errors {
             dual: norm_max(scratch) / scale(bound_sum + norm_sum(&self.y), bounds + self.y.len()),
             primal: norm_max(&self.residual),

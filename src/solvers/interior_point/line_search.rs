@@ -2,24 +2,11 @@
 
 use super::barrier;
 use super::engine::Engine;
-use super::filter::{OBJECTIVE_MARGIN, VIOLATION_MARGIN, at_most};
+use super::filter::at_most;
 use super::kkt::Sides;
+use super::parameters::PARAMETERS;
 use super::vectors::{dot, moved, norm_sum};
 use crate::model::EvaluationError;
-
-/// δ, s_θ, s_φ of the switching condition, η_φ of Armijo's, γ_α of the shortest step.
-const SWITCHING: f64 = 1.0;
-const VIOLATION_POWER: f64 = 1.1;
-const OBJECTIVE_POWER: f64 = 2.3;
-const ARMIJO: f64 = 1e-8;
-const SHORTEST_FACTOR: f64 = 0.05;
-/// κ_soc and p_max of the second-order corrections.
-const CORRECTION_DECREASE: f64 = 0.99;
-const MOST_CORRECTIONS: usize = 4;
-/// A tiny step changes no variable by more than this, relative.
-const TINY: f64 = 10.0 * f64::EPSILON;
-/// Backtracking for the sake of the domain alone ends here.
-const SHORTEST_IN_DOMAIN: f64 = 1e-14;
 
 /// θ and φ of a point.
 #[derive(Debug, Clone, Copy)]
@@ -98,7 +85,7 @@ impl Engine<'_> {
         }
         let shortest = self.shortest_step(&here);
         let (mut length, mut first, mut in_domain) = (longest, true, false);
-        while length > shortest || (!in_domain && length > SHORTEST_IN_DOMAIN) {
+        while length > shortest || (!in_domain && length > PARAMETERS.shortest_in_domain) {
             self.move_trial(length);
             if let Some(measure) = self.trial_measure()? {
                 in_domain = true;
@@ -124,20 +111,22 @@ impl Engine<'_> {
     /// Whether the step is below the rounding of every variable at a (nearly) feasible point.
     fn is_tiny(&self) -> bool {
         let (w, step) = (&self.iterate.w, &self.direction.w);
-        self.iterate.violation() < 1e-4 && w.iter().zip(step).all(|(w, step)| step.abs() <= TINY * (1.0 + w.abs()))
+        self.iterate.violation() < 1e-4
+            && w.iter().zip(step).all(|(w, step)| step.abs() <= PARAMETERS.tiny_step * (1.0 + w.abs()))
     }
 
     /// α_min, equation (23).
     fn shortest_step(&self, here: &Here) -> f64 {
         let Measure { violation, .. } = here.measure;
-        let mut shortest = VIOLATION_MARGIN;
+        let mut shortest = PARAMETERS.gamma_theta;
         if here.slope < 0.0 {
-            shortest = shortest.min(OBJECTIVE_MARGIN * violation / -here.slope);
+            shortest = shortest.min(PARAMETERS.gamma_phi * violation / -here.slope);
             if violation <= self.smallest_violation {
-                shortest = shortest.min(SWITCHING * violation.powf(VIOLATION_POWER) / (-here.slope).powf(OBJECTIVE_POWER));
+                shortest =
+                    shortest.min(PARAMETERS.delta * violation.powf(PARAMETERS.s_theta) / (-here.slope).powf(PARAMETERS.s_phi));
             }
         }
-        (SHORTEST_FACTOR * shortest).max(SHORTEST_IN_DOMAIN)
+        (PARAMETERS.gamma_alpha * shortest).max(PARAMETERS.shortest_in_domain)
     }
 
     pub(super) fn judge(&self, here: &Here, length: f64, trial: Measure) -> Verdict {
@@ -147,13 +136,13 @@ impl Engine<'_> {
         let Measure { violation, objective } = here.measure;
         let switching = here.slope < 0.0
             && violation <= self.smallest_violation
-            && length * (-here.slope).powf(OBJECTIVE_POWER) > SWITCHING * violation.powf(VIOLATION_POWER);
+            && length * (-here.slope).powf(PARAMETERS.s_phi) > PARAMETERS.delta * violation.powf(PARAMETERS.s_theta);
         if switching {
-            let armijo = objective + ARMIJO * length * here.slope;
+            let armijo = objective + PARAMETERS.eta_phi * length * here.slope;
             return if at_most(trial.objective, armijo) { Verdict::Objective } else { Verdict::Rejected };
         }
-        let less_violation = at_most(trial.violation, (1.0 - VIOLATION_MARGIN) * violation);
-        let less_objective = at_most(trial.objective, objective - OBJECTIVE_MARGIN * violation);
+        let less_violation = at_most(trial.violation, (1.0 - PARAMETERS.gamma_theta) * violation);
+        let less_objective = at_most(trial.objective, objective - PARAMETERS.gamma_phi * violation);
         if less_violation || less_objective { Verdict::Either } else { Verdict::Rejected }
     }
 
@@ -171,7 +160,7 @@ impl Engine<'_> {
             self.trial.residual.iter().zip(&self.iterate.residual).map(|(trial, now)| trial + longest * now).collect();
         let mut before = first.violation;
         let (mut w_step, mut y_step) = (self.direction.w.clone(), self.direction.y.clone());
-        for _ in 0..MOST_CORRECTIONS {
+        for _ in 0..PARAMETERS.p_max {
             let rows: Vec<f64> = accumulated.iter().map(|value| -value).collect();
             if self.kkt.solve(Sides { w: &self.right, rows: &rows }, &mut w_step, &mut y_step).is_err() {
                 return Ok(None);
@@ -186,7 +175,7 @@ impl Engine<'_> {
                 self.direction.y.copy_from_slice(&y_step);
                 return Ok(Some(corrected));
             }
-            if measure.violation > CORRECTION_DECREASE * before {
+            if measure.violation > PARAMETERS.kappa_soc * before {
                 return Ok(None);
             }
             before = measure.violation;

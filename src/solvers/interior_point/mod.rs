@@ -3,6 +3,7 @@
 //!
 //! | file | subject |
 //! |---|---|
+//! | [`parameters`] | every number that is a choice, by the paper's symbols |
 //! | [`form`], [`scaling`] | the problem with slacks, without fixed variables, scaled |
 //! | [`engine`] | one iteration |
 //! | [`iterate`] | a primal-dual point and its optimality error |
@@ -27,6 +28,7 @@ mod form;
 mod iterate;
 mod kkt;
 mod line_search;
+mod parameters;
 mod polish;
 mod predictor;
 mod restoration;

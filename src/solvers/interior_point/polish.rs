@@ -1,10 +1,11 @@
 //! The last digits: Newton's method on the active set the barrier has found. Active bounds and rows then hold to
 //! rounding, where the barrier leaves them off by μ. Nothing is taken that is not nearer to optimal.
 
-use super::engine::{Engine, TOLERANCE};
+use super::engine::Engine;
 use super::form::Form;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
+use super::parameters::PARAMETERS;
 use super::vectors::norm_max;
 use crate::model::EvaluationError;
 
@@ -56,7 +57,7 @@ impl Engine<'_> {
     /// Replaces the iterate by a polished one where that lowers the optimality error.
     pub(super) fn polish(&mut self) -> Result<(), EvaluationError> {
         self.assess();
-        let enough = if self.form.is_large() { TOLERANCE } else { ROUNDING };
+        let enough = if self.form.is_large() { PARAMETERS.epsilon_tol } else { ROUNDING };
         if self.errors.largest() <= enough {
             return Ok(());
         }
@@ -114,7 +115,7 @@ impl Engine<'_> {
                 return Ok(None);
             }
             let error = settle(&self.form, &sides, &mut point, &mut self.right);
-            if error <= TOLERANCE {
+            if error <= PARAMETERS.epsilon_tol {
                 return Ok(Some(point));
             }
             // The factors serve again as long as the active set stays and they bring much.

@@ -6,9 +6,10 @@
 //! optimality error falls. Once that ends, the filter takes over for good, from the best iterate.
 
 use super::barrier;
-use super::engine::{Engine, FIRST_BARRIER, LAST_BARRIER};
+use super::engine::Engine;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
+use super::parameters::PARAMETERS;
 use super::vectors::{dot, moved};
 use crate::model::EvaluationError;
 use crate::solvers::barrier::longest_multiplier_step;
@@ -47,7 +48,7 @@ impl Engine<'_> {
         }
         self.unguarded = false;
         self.iterate.clone_from(&self.best.iterate);
-        self.mu = self.mean_product(None).clamp(LAST_BARRIER, FIRST_BARRIER);
+        self.mu = self.mean_product(None).clamp(PARAMETERS.barrier.mu_last, PARAMETERS.barrier.mu_0);
         self.forget();
         Ok(false)
     }
@@ -76,7 +77,7 @@ impl Engine<'_> {
         let predictor = self.predictor()?;
         let reach = self.lengths(&predictor, 1.0);
         let (now, then) = (self.mean_product(None), self.mean_product(Some((&predictor, reach))));
-        self.mu = LAST_BARRIER.max(now * (then / now).powi(3));
+        self.mu = PARAMETERS.barrier.mu_last.max(now * (then / now).powi(3));
         let corrector = self.corrector(&predictor)?;
         let least = reach.primal * reach.dual;
         let steps = (0..SHARES).map(|k| {

@@ -5,21 +5,16 @@ use super::begin::InitialPoint;
 use super::elastic::Elastic;
 use super::engine::{Ending, Engine};
 use super::form::Source;
+use super::parameters::PARAMETERS;
 use super::start;
 use super::vectors::norm_max;
 use crate::model::{EvaluationError, Model};
 
-/// κ_resto: the violation must fall to this share before the iterations return.
-const DECREASE: f64 = 0.9;
 /// Violations (scaled) below this cannot be told from rounding: no verdict of infeasibility.
 const SMALLEST_VIOLATION: f64 = 1e-9;
 /// ζ = this·√μ, and the ζ of the last word on infeasibility.
 const PROXIMITY: f64 = 1e-3;
 const LAST_PROXIMITY: f64 = 1e-9;
-/// Larger bound multipliers are not taken over from a restoration.
-const LARGEST_MULTIPLIER: f64 = 1e3;
-/// Restorations in one run; more mean that it goes in circles.
-const MOST_RESTORATIONS: usize = 60;
 
 /// A restoration under way.
 pub(super) struct Restoration<'a> {
@@ -37,7 +32,7 @@ impl<'a> Engine<'a> {
         let nothing_to_restore = norm_max(&self.iterate.residual) <= SMALLEST_VIOLATION;
         let Source::Given(_) = self.form.model else { return Ok(Some(self.end_of_progress(why))) };
         self.restorations += 1;
-        if nothing_to_restore || self.restorations > MOST_RESTORATIONS {
+        if nothing_to_restore || self.restorations > PARAMETERS.most_restorations {
             return Ok(Some(self.end_of_progress(why)));
         }
         self.watchdog = None;
@@ -55,7 +50,7 @@ impl<'a> Engine<'a> {
         let mu = self.mu.max(norm_max(&self.iterate.residual).min(1e3));
         let elastic = Elastic::new(model, &x, rows, zeta, mu)?;
         let start = elastic.meta().start.clone();
-        let beginning = InitialPoint { mu: Some(mu), push: Some(start::WARM_PUSH), ..InitialPoint::at(&start) };
+        let beginning = InitialPoint { mu: Some(mu), push: Some(PARAMETERS.kappa_1_warm), ..InitialPoint::at(&start) };
         match Engine::new(Source::Own(Box::new(elastic)), beginning) {
             Ok(engine) => {
                 let last_word = zeta <= LAST_PROXIMITY;
@@ -74,7 +69,7 @@ impl<'a> Engine<'a> {
         self.step_norm = restoration.engine.step_norm;
         let inside = self.adopt(&mut restoration)?;
         let violation = self.trial.violation();
-        let accepted = inside && violation <= DECREASE * restoration.violation && {
+        let accepted = inside && violation <= PARAMETERS.kappa_resto * restoration.violation && {
             let measure = self.measure(&self.trial.w, self.trial.objective, &self.trial.residual);
             self.filter.accepts(measure.violation, measure.objective)
         };
@@ -85,7 +80,7 @@ impl<'a> Engine<'a> {
                 Ok(None)
             }
             Some(Ending::Optimal | Ending::Acceptable) if inside => self.end_restoration(&restoration),
-            Some(_) if inside && violation < DECREASE * restoration.violation => {
+            Some(_) if inside && violation < PARAMETERS.kappa_resto * restoration.violation => {
                 self.filter.reset(self.largest_violation);
                 self.resume()
             }
@@ -100,7 +95,7 @@ impl<'a> Engine<'a> {
         for (at, &j) in self.form.free.iter().enumerate() {
             self.trial.w[at] = x[j] / self.form.variable_scale[at];
         }
-        let push = self.mu.clamp(start::WARM_PUSH * 1e-4, start::COLD_PUSH);
+        let push = self.mu.clamp(PARAMETERS.kappa_1_warm * 1e-4, PARAMETERS.kappa_1);
         self.form.keep_inside(&mut self.trial.w);
         match self.trial.evaluate(&mut self.form) {
             Ok(()) => start::place_slacks(&self.form, &mut self.trial, push),
@@ -127,7 +122,7 @@ impl<'a> Engine<'a> {
     /// Goes on from the trial point with fresh multipliers.
     fn resume(&mut self) -> Result<Option<Ending>, EvaluationError> {
         std::mem::swap(&mut self.iterate, &mut self.trial);
-        start::central_bound_multipliers(&self.form, &mut self.iterate, self.mu, LARGEST_MULTIPLIER);
+        start::central_bound_multipliers(&self.form, &mut self.iterate, self.mu, PARAMETERS.largest_restored_multiplier);
         start::least_squares_multipliers(&self.form, &mut self.kkt, &mut self.iterate);
         self.assess();
         Ok(None)

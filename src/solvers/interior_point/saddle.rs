@@ -1,12 +1,13 @@
 //! Leaving stationary points that are no minima. Newton's method finds maxima and saddles as readily as minima when it
 //! starts on one, or on the symmetry plane of one; the inertia tells.
 
+use super::barrier;
 use super::engine::Engine;
 use super::form::Form;
 use super::kkt::{Blocks, Kkt, Sides};
+use super::parameters::PARAMETERS;
 use super::start;
 use super::vectors::{moved, norm_max};
-use super::{barrier, engine};
 use crate::model::EvaluationError;
 
 /// Times a run may leave a saddle.
@@ -68,7 +69,7 @@ impl Engine<'_> {
         sigma.iter_mut().for_each(|sigma| *sigma = sigma.min(kkt.rigid()).max(1.0 / kkt.rigid()));
         let blocks = Blocks { hessian, jacobian: &iterate.jacobian, sigma };
         // Regularised, so that dependent rows count as negative eigenvalues like all others.
-        let regularised = kkt.factor(blocks, 0.0, engine::LAST_REGULARISATION);
+        let regularised = kkt.factor(blocks, 0.0, PARAMETERS.delta_c_counting);
         if regularised.is_ok_and(|inertia| inertia.negative <= form.rows.len()) || !kkt.factor_close(blocks) {
             return Ok(None);
         }

@@ -3,8 +3,8 @@
 //! Wächter & Biegler (2006), §3.8, scale down only; here small gradients are scaled up too, so that rows in any unit
 //! weigh alike. All scales are powers of two: no rounding on the way there and back.
 
-use super::form::Form;
 use super::vectors::power_of_two;
+use crate::linear_algebra::Pattern;
 
 /// Gradients larger than this are scaled down to it.
 const LARGEST_GRADIENT: f64 = 100.0;
@@ -39,18 +39,20 @@ pub(super) fn gradient_scale(size: f64, value: f64) -> f64 {
 }
 
 /// Scales of the objective and of every row, from the gradients of the form as it is (unscaled but for variables).
-pub(super) fn gradient_scales(form: &Form<'_>, objective: f64, gradient: &[f64], jacobian: &[f64]) -> (f64, Vec<f64>) {
+/// `limits` are the sizes of the rows' limits.
+pub(super) fn gradient_scales(
+    (objective, gradient): (f64, &[f64]),
+    (pattern, jacobian): (&Pattern, &[f64]),
+    limits: &[f64],
+) -> (f64, Vec<f64>) {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let limit = |i: usize| {
-        let meta = form.model.meta();
-        let row = form.rows[i];
-        [meta.row_lower[row], meta.row_upper[row]].into_iter().filter(|limit| limit.is_finite()).map(f64::abs).fold(0.0, f64::max)
-    };
-    let rows = (0..form.rows.len())
-        .map(|i| {
-            let size = largest(&jacobian[form.jacobian.range(i)]);
+    let rows = limits
+        .iter()
+        .enumerate()
+        .map(|(i, &limit)| {
+            let size = largest(&jacobian[pattern.range(i)]);
             // A flat start says nothing of the row's size; its limit does.
-            gradient_scale(if size < FLAT * limit(i) { limit(i) } else { size }, limit(i))
+            gradient_scale(if size < FLAT * limit { limit } else { size }, limit)
         })
         .collect();
     (gradient_scale(largest(gradient), objective.abs()), rows)

@@ -5,23 +5,15 @@
 use super::form::Form;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Kkt, Sides};
+use super::parameters::PARAMETERS;
 use super::scaling;
 use super::vectors::norm_max;
 use crate::model::domain::middle;
 use crate::model::{EvaluationError, Meta};
 use crate::solvers::barrier::pushed;
 
-/// Larger least-squares multipliers are no guess worth having.
-const LARGEST_GUESS: f64 = 1e3;
 /// Shares of the way from the start towards the middle of the bounds, tried in this order.
 const TOWARDS_MIDDLE: [f64; 7] = [1e-6, 1e-3, 1e-2, 0.1, 0.25, 0.5, 1.0];
-
-/// How far inside its bounds the start is pushed: κ₁ (absolute) and κ₂ (share of the distance between two bounds).
-pub(super) const COLD_PUSH: f64 = 1e-2;
-pub(super) const WARM_PUSH: f64 = 1e-8;
-/// κ₁ and κ₂ of the slacks of large problems: among thousands of rows some slack always stops a step short, unless all of them
-/// begin well inside.
-pub(super) const LARGE_PUSH: f64 = 1.0;
 
 /// Puts the variables at `start` (the model's x) and evaluates; slacks follow, scales are chosen.
 pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
@@ -30,7 +22,11 @@ pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f
         iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
     }
     evaluate_in_domain(form, &mut iterate)?;
-    let (objective_scale, row_scale) = scaling::gradient_scales(form, iterate.objective, &iterate.gradient, &iterate.jacobian);
+    let (objective_scale, row_scale) = scaling::gradient_scales(
+        (iterate.objective, &iterate.gradient),
+        (&form.jacobian, &iterate.jacobian),
+        &form.limit_sizes(),
+    );
     form.rescale(objective_scale, row_scale);
     iterate.evaluate(form)?;
     place_slacks(form, &mut iterate, slack_push);
@@ -108,7 +104,7 @@ pub(super) fn least_squares_multipliers(form: &Form<'_>, kkt: &mut Kkt, iterate:
     let zeros = vec![0.0; iterate.y.len()];
     let solved = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0)
         && kkt.solve(Sides { w: &right, rows: &zeros }, &mut w_step, &mut y).is_ok();
-    if solved && norm_max(&y) <= LARGEST_GUESS {
+    if solved && norm_max(&y) <= PARAMETERS.largest_guess {
         iterate.y = y;
     }
 }

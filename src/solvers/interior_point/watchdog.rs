@@ -5,12 +5,8 @@ use super::barrier;
 use super::engine::Engine;
 use super::iterate::Iterate;
 use super::line_search::{Here, Search};
+use super::parameters::PARAMETERS;
 use crate::model::EvaluationError;
-
-/// Shortened steps in a row that call the watchdog.
-const SHORTENED_STEPS: usize = 10;
-/// Full steps on trial.
-const TRIALS: usize = 3;
 
 /// What to return to.
 pub(super) struct Watchdog {
@@ -22,7 +18,7 @@ pub(super) struct Watchdog {
 impl Engine<'_> {
     /// Counts steps cut short, and notes where to return to when there were too many.
     pub(super) fn watch(&mut self, here: Here) {
-        if self.watchdog.is_none() && self.shortened_steps >= SHORTENED_STEPS {
+        if self.watchdog.is_none() && self.shortened_steps >= PARAMETERS.watchdog_after {
             self.shortened_steps = 0;
             self.watchdog = Some(Box::new(Watchdog { iterate: self.iterate.clone(), here, trials: 0 }));
         }
@@ -40,7 +36,7 @@ impl Engine<'_> {
             }
         }
         watchdog.trials += 1;
-        if measure.is_none() || watchdog.trials > TRIALS {
+        if measure.is_none() || watchdog.trials > PARAMETERS.watchdog_trials {
             self.iterate = watchdog.iterate;
             return Ok(None);
         }

@@ -31,6 +31,7 @@ impl Chain {
                 objective_is_linear: false,
                 jacobian: Pattern::from_positions(n - 1, &mut rows),
                 hessian: Pattern::from_positions(n, &mut lower),
+                ..Meta::default()
             },
         }
     }

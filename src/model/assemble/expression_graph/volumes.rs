@@ -4,7 +4,7 @@ use super::{Item, Lowering, OwnNumber};
 use crate::expression::graph::NodeId;
 use crate::geometry::polygon::Ring;
 use crate::problem::Property;
-use crate::ribs::law::{self, Law};
+use crate::ribs::law::{self, VolumeLaw};
 use crate::sections::{self, Given};
 
 impl Lowering<'_> {
@@ -28,7 +28,7 @@ impl Lowering<'_> {
     }
 
     /// The volume of the rib that is the item.
-    pub fn own_volume(&mut self, rib: u32, law: Law) -> NodeId {
+    pub fn own_volume(&mut self, rib: u32, law: VolumeLaw) -> NodeId {
         let left = self.own_section(self.problem.ribs.from[rib as usize]);
         let right = self.own_section(self.problem.ribs.to[rib as usize]);
         let length = self.own_number(Item::Rib(rib), OwnNumber::Length);
@@ -36,14 +36,14 @@ impl Lowering<'_> {
     }
 
     /// The volume of a rib named globally.
-    pub(super) fn rib_volume(&mut self, rib: u32, law: Law) -> NodeId {
+    pub(super) fn rib_volume(&mut self, rib: u32, law: VolumeLaw) -> NodeId {
         let left = self.named_section(self.problem.ribs.from[rib as usize]);
         let right = self.named_section(self.problem.ribs.to[rib as usize]);
         let length = self.graph.constant(self.problem.ribs.length[rib as usize]);
         self.volume_between(rib, law, &left, &right, length)
     }
 
-    fn volume_between(&mut self, rib: u32, law: Law, left: &[NodeId], right: &[NodeId], length: NodeId) -> NodeId {
+    fn volume_between(&mut self, rib: u32, law: VolumeLaw, left: &[NodeId], right: &[NodeId], length: NodeId) -> NodeId {
         let (from, to) = (self.problem.ribs.from[rib as usize], self.problem.ribs.to[rib as usize]);
         let left_parts = self.parts(from, left);
         let per_length = if from == to {
@@ -51,8 +51,8 @@ impl Lowering<'_> {
         } else {
             let right_parts = self.parts(to, right);
             match law {
-                Law::Frustum => self.frusta(&left_parts, &right_parts),
-                Law::Prismatoid => {
+                VolumeLaw::Frustum => self.frusta(&left_parts, &right_parts),
+                VolumeLaw::Prismatoid => {
                     let mean = self.mean_dimensions(from, to, left, right);
                     let middle = self.parts(from, &mean);
                     let [left, middle, right] = [&left_parts, &middle, &right_parts].map(|parts| self.graph.sum(parts));

@@ -11,19 +11,12 @@ mod full;
 mod system;
 
 use super::form::Form;
+use super::parameters::PARAMETERS;
 use crate::linear_algebra::{FactorizationError, Inertia};
 use condensed::Condensed;
 use full::Full;
 use system::System;
 
-/// Bounds and factors of δ_w: Algorithm IC's δ̄_min, δ̄_0, δ̄_max, κ⁻, κ⁺, κ̄⁺ and δ̄_c.
-const SMALLEST: f64 = 1e-20;
-const FIRST: f64 = 1e-4;
-const LARGEST: f64 = 1e20;
-const DECREASE: f64 = 1.0 / 3.0;
-const INCREASE: f64 = 8.0;
-const FIRST_INCREASE: f64 = 100.0;
-const DUAL_REGULARISATION: f64 = 1e-8;
 /// Failures after which the condensed form is given up.
 const MOST_FAILURES: usize = 3;
 /// Halvings (of the logarithm) towards the least δ_w.
@@ -161,7 +154,7 @@ impl Kkt {
     /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
     pub fn factor_corrected(&mut self, blocks: Blocks<'_>, mu: f64) -> Result<bool, FactorizationError> {
         let wanted = self.wanted();
-        let regularisation = DUAL_REGULARISATION * mu.powf(0.25);
+        let regularisation = PARAMETERS.delta_c * mu.powf(0.25);
         let mut dual = if self.dependent { regularisation } else { 0.0 };
         match self.factor(blocks, 0.0, dual) {
             Ok(inertia) if inertia == wanted => return Ok(true),
@@ -175,9 +168,9 @@ impl Kkt {
             }
             Err(error) => return Err(error),
         }
-        let mut primal = if self.last_correction == 0.0 { FIRST } else { SMALLEST.max(DECREASE * self.last_correction) };
-        let factor = if self.last_correction == 0.0 { FIRST_INCREASE } else { INCREASE };
-        while primal <= LARGEST {
+        let mut primal = PARAMETERS.inertia.begin(self.last_correction);
+        let factor = PARAMETERS.inertia.growth(self.last_correction);
+        while primal <= PARAMETERS.inertia.largest {
             match self.factor(blocks, primal, dual) {
                 Ok(inertia) if inertia == wanted => {
                     self.last_correction = primal;
@@ -199,13 +192,13 @@ impl Kkt {
             return false;
         }
         let wanted = self.wanted();
-        let (mut too_small, mut enough) = (self.correction / FIRST_INCREASE, self.correction);
+        let (mut too_small, mut enough) = (self.correction / PARAMETERS.inertia.first_increase, self.correction);
         for _ in 0..BISECTIONS {
             let middle = (too_small * enough).sqrt();
-            let right = self.factor(blocks, middle, DUAL_REGULARISATION).is_ok_and(|inertia| inertia == wanted);
+            let right = self.factor(blocks, middle, PARAMETERS.delta_c).is_ok_and(|inertia| inertia == wanted);
             *(if right { &mut enough } else { &mut too_small }) = middle;
         }
-        self.factor(blocks, enough, DUAL_REGULARISATION).is_ok()
+        self.factor(blocks, enough, PARAMETERS.delta_c).is_ok()
     }
 
     /// Solves for the steps (w_step, y_step) that belong to right-hand sides.

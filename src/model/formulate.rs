@@ -1,0 +1,61 @@
+//! From a checked problem to what is solved: kinks restated, the model assembled, its class proved, and other variables found where the
+//! problem is easier to solve in them.
+
+use std::sync::Arc;
+
+use super::views::flange_substitution::FlangeSubstitution;
+use super::{AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble, classify};
+use crate::problem::Problem;
+
+/// Models of so many variables and more are solved component by component where they decompose into small ones,
+const DECOMPOSED_FROM: usize = 200;
+/// of no more variables than this: each is then solved in variables that suit it.
+const SMALL_COMPONENT: usize = 64;
+
+/// A problem in all the forms it is solved and shown in.
+pub struct Formulation {
+    /// The model that is solved: kinks restated, auxiliaries after the user's own variables.
+    pub model: Arc<RibModel>,
+    /// The same as it was written: kinks stay, and there are no auxiliaries.
+    pub shown: Arc<RibModel>,
+    /// What is proved about it.
+    pub class: Class,
+    /// Which term keeps it from being a geometric program.
+    pub not_geometric: Option<String>,
+    /// Which term keeps it from being convex.
+    pub not_convex: Option<String>,
+    /// The same in other variables, where there are any that suit it better.
+    pub substitution: Option<Box<dyn Substitution + Send>>,
+}
+
+/// Formulates a problem.
+///
+/// # Errors
+/// Where one term couples so many variables that its second derivatives do not fit.
+pub fn formulate(problem: Problem) -> Result<Formulation, AssemblyError> {
+    let problem = Arc::new(if problem.auxiliaries.is_empty() { problem.without_kinks() } else { problem });
+    let model = Arc::new(assemble(&problem)?);
+    let shown = match problem.auxiliaries.is_empty() {
+        true => Arc::clone(&model),
+        false => Arc::new(assemble(&Arc::new(problem.with_kinks()))?),
+    };
+    let Classification { class, logarithmic, not_geometric, not_convex } = classify(&model)?;
+    let substitution = match logarithmic {
+        _ if has_small_components(&model) => None,
+        Some(logarithmic) => Some(Box::new(logarithmic) as Box<dyn Substitution + Send>),
+        None => flanges(&problem, &model),
+    };
+    Ok(Formulation { model, shown, class, not_geometric, not_convex, substitution })
+}
+
+/// Whether the model decomposes into so many small components that it is solved one by one, each in variables that suit it.
+fn has_small_components(model: &RibModel) -> bool {
+    let large = model.meta().variables() >= DECOMPOSED_FROM;
+    large && model.components().is_some_and(|components| components.partition().largest() <= SMALL_COMPONENT)
+}
+
+/// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.
+fn flanges(problem: &Problem, model: &Arc<RibModel>) -> Option<Box<dyn Substitution + Send>> {
+    let pairs = FlangeSubstitution::pairs(problem);
+    (!pairs.is_empty()).then(|| Box::new(FlangeSubstitution::new(Arc::clone(model) as _, &pairs)) as Box<dyn Substitution + Send>)
+}
