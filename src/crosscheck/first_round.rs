@@ -15,9 +15,7 @@ pub(super) fn answers(ledger: &mut Ledger<'_, '_>) -> Vec<Answer> {
         let proved = beside.is_some();
         let share = beside.unwrap_or_else(|| turn(ledger, place, order.len(), k));
         let answer = match proved && share.work / ledger.session.cost(ledger.solvers[k]) < work::FEWEST_EVALUATIONS {
-            true => {
-                ledger.not_run(k, "not run: a minimum is certified, and its share of the work is a few evaluations".into())
-            }
+            true => ledger.not_run(k, "not run: a minimum is certified, and its share of the work is a few evaluations".into()),
             false => {
                 let multipliers = ledger.session.task.start_multipliers;
                 ledger.run_within(k, ledger.session.task.start, (share.work, share.seconds), multipliers)

@@ -100,7 +100,7 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
 /// # Errors
 /// Every mistake of the text and its tables.
 pub fn read_text(name: &str, text: &str) -> Result<Input, Mistakes> {
-    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    let source = Source::new(name, text.to_owned());
     understand(&source, text.as_bytes(), Path::new(""), &[], &|_| {})
 }
 
