@@ -102,7 +102,7 @@ pub struct Solve {
     #[arg(long, value_name = "ANSWER")]
     pub start: Option<PathBuf>,
     /// Solve from N starting points (the file's and N - 1 others, the same every time) and keep the best answer [default: 1; of structures
-    /// with up to 30 design variables, which have many minima, 4]
+    /// with up to 10 design variables, which have many minima, 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub starts: Option<u32>,
     /// Print the result as one JSON object on standard output, and nothing else there

@@ -149,7 +149,7 @@ impl Subject {
     /// Starting points where the user names no number: several for small structures, for which local minima are the rule.
     pub fn usual_starts(&self) -> usize {
         /// With more design variables every start costs too much to be tried unasked.
-        const FEW_VARIABLES: usize = 30;
+        const FEW_VARIABLES: usize = 10;
         match self.analysis() {
             Some(model) if model.meta().variables() <= FEW_VARIABLES && !self.class().is_global() => 4,
             _ => 1,
