@@ -12,11 +12,10 @@ use super::evaluate::{Evaluation, Item};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
-pub use world::{Remark, Report, Stage, World};
+pub use world::{Chosen, Open, Remark, Report, Stage, World};
 
 pub use super::item_scope::ItemScope;
 pub use condition::Filter;
-pub use response::{Chosen, Open};
 
 /// One number's formula, or an array of them.
 #[derive(Debug, Clone, PartialEq)]

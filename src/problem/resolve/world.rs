@@ -3,7 +3,6 @@
 use super::super::Problem;
 use super::super::names::Names;
 use super::Value;
-use super::{Chosen, Open};
 use crate::expression::Span;
 use crate::expression::ast::Collection;
 
@@ -59,4 +58,36 @@ pub struct World<'a> {
     pub stage: Stage,
     /// The row a constraint is being spread over.
     pub chosen: Chosen<'a>,
+}
+
+/// The case, station and point of the row a constraint is being spread over.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Chosen<'a> {
+    /// The case or combination that the word `case` stands for.
+    pub case: Option<u32>,
+    /// The station of responses that name none.
+    pub station: Option<f64>,
+    /// The point of stresses that name none.
+    pub point: Option<&'a str>,
+    /// The sign of torsion's share in shear stresses.
+    pub sign: f64,
+}
+
+/// What responses left open while a formula was resolved: the row has to be spread over it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Open {
+    /// Some response names no station.
+    pub station: bool,
+    /// Some normal stress names no point.
+    pub stress: bool,
+    /// Some equivalent stress names no point.
+    pub shear: bool,
+    /// Sags occur: rows are those of the ribs of each line.
+    pub sag: bool,
+    /// Shear stresses occur, so that torsion may count either way.
+    pub sign: bool,
+    /// Cases and combinations that occur.
+    pub sets: Vec<u32>,
+    /// Forms of the sections whose points are left open.
+    pub forms: Vec<u16>,
 }

@@ -39,7 +39,7 @@ impl Globalization {
         let length = match self.watchdog.take() {
             Some(mut watchdog) => match watchdog.full_step(state, &mut self.acceptance)? {
                 Trial::Kept(length) => length,
-                Trial::OnTrial(length) => {
+                Trial::Another(length) => {
                     self.watchdog = Some(watchdog);
                     length
                 }

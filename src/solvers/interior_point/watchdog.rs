@@ -20,7 +20,7 @@ pub(super) enum Trial {
     /// The filter likes where it leads: the watchdog is done.
     Kept(f64),
     /// It is taken, and the watchdog goes on.
-    OnTrial(f64),
+    Another(f64),
     /// The trials led nowhere: the iterate is back where they began.
     Undone,
 }
@@ -44,6 +44,6 @@ impl Watchdog {
             state.iterate.clone_from(&self.iterate);
             return Ok(Trial::Undone);
         }
-        Ok(Trial::OnTrial(longest))
+        Ok(Trial::Another(longest))
     }
 }
