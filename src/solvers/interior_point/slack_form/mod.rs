@@ -10,6 +10,7 @@ mod selection;
 use super::parameters::PARAMETERS;
 use super::scaling;
 use crate::model::{Model, Pattern};
+use evaluation::Kept;
 use selection::{Entry, select_hessian, select_jacobian};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -60,6 +61,7 @@ pub(super) struct SlackForm<'a> {
     jacobian_values: Vec<f64>,
     hessian_values: Vec<f64>,
     multipliers: Vec<f64>,
+    kept: Option<Kept<'a>>,
 }
 
 impl<'a> SlackForm<'a> {
@@ -102,6 +104,7 @@ impl<'a> SlackForm<'a> {
             jacobian_values: vec![0.0; jacobian_size],
             hessian_values: vec![0.0; hessian_size],
             multipliers: vec![0.0; m],
+            kept: None,
             model,
         };
         form.apply_scales();
