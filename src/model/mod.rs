@@ -23,6 +23,7 @@ mod names;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod states;
+pub mod stiffness;
 pub mod structural;
 pub mod views;
 

@@ -1,6 +1,7 @@
 //! Models some of whose variables follow from the others through equations of their own.
 
-use super::Model;
+use super::stiffness::Factors;
+use super::{EvaluationError, Model};
 use crate::problem::kinks::Auxiliary;
 
 /// Which variables are states, and which rows their equations: one block of both per load case, all after the design's own.
@@ -18,6 +19,12 @@ pub struct States {
 
 /// A model with states.
 pub trait WithStates: Model {
+    /// A design with its states, and the factors they were found with; those of an `earlier` design keep their analysis of the pattern.
+    ///
+    /// # Errors
+    /// Where the state equations have no value, or leave a state open.
+    fn solve_states(&self, x: &[f64], earlier: Option<Factors>) -> Result<(Vec<f64>, Factors), EvaluationError>;
+
     /// Design variables in the place of kinks, the last ones of the design, and the first of the rows that bound them.
     fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
         None

@@ -137,7 +137,7 @@ impl Subject {
     /// With the directions that meet no resistance.
     pub fn refuse_mechanism(&self) -> Result<(), RunError> {
         let Some(model) = self.analysis() else { return Ok(()) };
-        match mechanism(model.lifted().problem(), &model.meta().start) {
+        match mechanism(model.lifted(), &model.meta().start) {
             Ok(Some(words)) => Err(RunError::Choice(format!(
                 "the structure is a mechanism: {words}; support it there, or brace it with another rib"
             ))),
