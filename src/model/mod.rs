@@ -20,6 +20,8 @@ pub mod evaluator;
 mod formulate;
 pub mod lifted;
 mod names;
+pub mod relaxation;
+pub mod remainder;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod states;

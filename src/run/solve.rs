@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::results::{Ending, Results};
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, utilisation};
+use super::vanished::settle;
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, utilisation};
 use crate::backends::Backend;
 use crate::crosscheck::{self, Outcome, Status, Task};
 use crate::files::Inputs;
@@ -97,6 +99,13 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         interrupt: request.interrupt,
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, request.interrupt));
+    if let Some(settled) = &settled {
+        outcome = settled.outcome.clone();
+    }
+    bound_below(subject, &mut outcome, request.interrupt);
+    strongest::explain(subject, &mut outcome);
+    let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
@@ -144,7 +153,28 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
         starts: 1,
         interrupt: None,
     };
-    Ok(present(subject, unobserved(&task, &choices)))
+    let outcome = present(subject, unobserved(&task, &choices));
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, None));
+    let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
+    bound_below(subject, &mut outcome, None);
+    strongest::explain(subject, &mut outcome);
+    Ok(outcome)
+}
+
+/// One start of every backend from a point of the user's variables.
+fn nearby(subject: &Subject, x: &[f64], choices: &[Choice], interrupt: Option<&AtomicBool>) -> Outcome {
+    let start = subject.completed(x.to_vec());
+    let task = Task {
+        model: subject.model(),
+        substitution: subject.substitution(),
+        class: subject.class(),
+        settings: &subject.settings,
+        start: &start,
+        start_multipliers: None,
+        starts: 1,
+        interrupt,
+    };
+    present(subject, unobserved(&task, choices))
 }
 
 /// A run that nobody watches.

@@ -88,6 +88,20 @@ impl Subject {
         Ok(Subject { about, settings, inputs: Inputs::new([file.into()]), warnings: Vec::new(), formulation })
     }
 
+    /// The same file's problem after a change, with all that was said and set.
+    ///
+    /// # Errors
+    /// Where its second derivatives do not fit.
+    pub fn with_problem(&self, problem: Problem) -> Result<Subject, AssemblyError> {
+        Ok(Subject {
+            about: self.about.clone(),
+            settings: self.settings.clone(),
+            inputs: self.inputs.clone(),
+            warnings: Vec::new(),
+            formulation: formulate(problem)?,
+        })
+    }
+
     /// What is proved about the problem.
     pub fn class(&self) -> Class {
         self.formulation.class
