@@ -7,10 +7,11 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use super::states::{States, WithStates};
+pub use super::states::States;
 use super::stiffness::{Factors, Mechanism, Stiffness};
 use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
+use super::with_states::WithStates;
 use super::{AssemblyError, EvaluationError, Meta, Model, NameTable, Names, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};

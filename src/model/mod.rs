@@ -28,6 +28,7 @@ pub mod states;
 pub mod stiffness;
 pub mod structural;
 pub mod views;
+pub mod with_states;
 
 use thiserror::Error;
 

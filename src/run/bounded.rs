@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::Subject;
-use super::solve::unobserved;
+use super::unobserved::unobserved;
 use crate::backends::argmin::Argmin;
 use crate::certificate::Scope;
 use crate::crosscheck::{Outcome, Status, Task};

@@ -19,6 +19,7 @@ mod sizing;
 pub mod solve;
 mod strongest;
 pub mod subject;
+pub(crate) mod unobserved;
 pub mod utilisation;
 mod vanished;
 pub mod verify;

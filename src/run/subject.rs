@@ -2,8 +2,10 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::{RunError, plausible};
+use crate::crosscheck::Task;
 use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::structural::mechanism;
@@ -133,6 +135,20 @@ impl Subject {
     /// The declaration, as it was written.
     pub fn problem(&self) -> &Problem {
         self.formulation.shown.problem()
+    }
+
+    /// One run from this start, which has the model's variables.
+    pub fn task<'a>(&'a self, start: &'a [f64], interrupt: Option<&'a AtomicBool>) -> Task<'a> {
+        Task {
+            model: self.model(),
+            substitution: self.substitution(),
+            class: self.class(),
+            settings: &self.settings,
+            start,
+            start_multipliers: None,
+            starts: 1,
+            interrupt,
+        }
     }
 
     /// The same in variables that are easier to solve in, where there are any.

@@ -6,8 +6,9 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use crate::model::states::{States, WithStates};
+use crate::model::states::States;
 use crate::model::stiffness::Factors;
+use crate::model::with_states::WithStates;
 use crate::model::{EvaluationError, Meta, Model, Own, Pattern, auxiliaries};
 
 /// A model without its states.
