@@ -4,6 +4,7 @@
 //! s = t cut to [c_l, c_u], it is φ(x) = f(x) + ρ/2·Σ(t_i − s_i)². Equalities, one-sided and two-sided rows all follow
 //! that formula; ρ·(t − s) is the next estimate of the multipliers, and ∇φ is ∇L at that estimate.
 
+use crate::math::within;
 use crate::model::evaluation::product_by_entries;
 use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern};
 
@@ -73,7 +74,7 @@ impl<M: Model> Augmented<M> {
         let meta = self.model.meta();
         let estimate = |(i, &value): (usize, &f64)| {
             let shifted = value + self.multipliers[i] / self.penalty;
-            self.penalty * (shifted - shifted.max(meta.row_lower[i]).min(meta.row_upper[i]))
+            self.penalty * (shifted - within(shifted, meta.row_lower[i], meta.row_upper[i]))
         };
         rows.iter().enumerate().map(estimate).collect()
     }

@@ -6,6 +6,7 @@ mod patterns;
 
 use std::sync::Arc;
 
+use crate::math::within;
 use crate::model::evaluation::product_by_entries;
 use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
@@ -141,7 +142,7 @@ impl Substitution for FlangeSubstitution {
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
                 let user = self.model.meta();
-                x[j] = (z[j] + z[*partner as usize]).max(user.lower[j]).min(user.upper[j]);
+                x[j] = within(z[j] + z[*partner as usize], user.lower[j], user.upper[j]);
             }
         }
         x
@@ -151,7 +152,7 @@ impl Substitution for FlangeSubstitution {
         let mut z = x.to_vec();
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
-                z[j] = (x[j] - x[*partner as usize]).max(self.meta.lower[j]).min(self.meta.upper[j]);
+                z[j] = within(x[j] - x[*partner as usize], self.meta.lower[j], self.meta.upper[j]);
             }
         }
         z

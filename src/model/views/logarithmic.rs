@@ -4,6 +4,7 @@ mod at_point;
 
 use std::sync::Arc;
 
+use crate::math::within;
 use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 use at_point::LogarithmicAt;
 
@@ -141,7 +142,7 @@ impl Substitution for Logarithmic {
             // A bound reached in logarithms is that very bound.
             y if y <= self.meta.lower[j] => user.lower[j],
             y if y >= self.meta.upper[j] => user.upper[j],
-            _ => x.max(user.lower[j]).min(user.upper[j]),
+            _ => within(x, user.lower[j], user.upper[j]),
         };
         self.x(y).into_iter().enumerate().map(inside).collect()
     }
