@@ -15,6 +15,7 @@ pub mod performance_profile;
 pub mod pictures;
 pub mod result;
 pub mod sizes;
+pub mod structure;
 pub mod summary;
 pub mod tables;
 pub mod text;

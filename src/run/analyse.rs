@@ -1,6 +1,6 @@
 //! `analyse`: what the structure does at a point; nothing is optimised.
 
-mod responses;
+pub(super) mod responses;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,6 +10,7 @@ use crate::model::structural::mechanism;
 use crate::model::{Assembled, EvaluationError, assemble_any};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
+use crate::report::text::listing;
 use responses::responses;
 pub use responses::{CaseResponses, Extreme, ResponsesError};
 
@@ -24,6 +25,10 @@ pub struct Analysis {
     pub variables: Vec<String>,
     /// What the structure does, by case and combination.
     pub cases: Vec<CaseResponses>,
+    /// The point that was analysed, by variable.
+    pub x: Vec<f64>,
+    /// What is odd about it, in sentences.
+    pub remarks: Vec<String>,
     /// The largest residual of an equilibrium equation over the largest sum of its terms.
     pub equilibrium_residual: f64,
 }
@@ -75,10 +80,28 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         analysis.variables = (0..x.len()).map(|j| model.variable_name(j)).collect();
     }
     analysis.cases = responses(problem, &x)?;
+    analysis.remarks = remarks(subject, &x);
     if let Assembled::Structure(reduced) = &assembled {
         analysis.equilibrium_residual = reduced.residual(&x)?;
     }
+    analysis.x = x;
     Ok(analysis)
+}
+
+/// Variables outside their bounds, and a structure on which nothing acts.
+fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
+    let (model, mut remarks) = (subject.shown(), Vec::new());
+    let meta = model.meta();
+    let outside = (0..x.len()).filter(|&j| x[j] < meta.lower[j] || x[j] > meta.upper[j]);
+    let outside: Vec<String> = outside.map(|j| model.variable_name(j)).collect();
+    if !outside.is_empty() {
+        let names = listing(outside.into_iter(), 5);
+        remarks.push(format!("warning: the answer is outside the bounds of {names}; it is analysed all the same"));
+    }
+    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) {
+        remarks.push("warning: nothing acts on the structure: the file has no [[loads]], and so no case to analyse".into());
+    }
+    remarks
 }
 
 /// The problem with one row per definition.
