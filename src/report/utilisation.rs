@@ -45,6 +45,16 @@ pub struct Declared {
     pub place: Place,
 }
 
+impl Declared {
+    /// The name in the file: without the `#2` of a row that an abs, min or max of it made.
+    pub fn written(&self) -> &str {
+        match self.name.rsplit_once('#') {
+            Some((name, number)) if !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()) => name,
+            _ => &self.name,
+        }
+    }
+}
+
 /// The case, the station and the point of a structure's response; empty where a constraint names none, or several.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Place {
@@ -128,7 +138,7 @@ impl Table {
                 continue;
             };
             let Place { case, station, point } = &declared.place;
-            let (governs, case) = (super::text::cell(&declared.name), super::text::cell(case));
+            let (governs, case) = (super::text::cell(declared.written()), super::text::cell(case));
             let station = station.map_or(String::new(), exact);
             let side = if used.from_above { "<=" } else { ">=" };
             let (share, value, limit) = (exact(share), exact(used.value), exact(used.limit));
@@ -222,11 +232,11 @@ impl Table {
     fn item_line(&self, item: &Loaded, analysed: bool) -> Vec<String> {
         let declared = self.uses.get(item.at).and_then(|used| self.constraints.get(used.constraint));
         let mut cells = vec![item.of.to_owned(), item.name.clone()];
-        match declared.map(|declared| (&declared.name, &declared.place)) {
+        match declared.map(|declared| (declared.written(), &declared.place)) {
             Some((name, place)) if analysed && !place.is_empty() => {
                 let station = place.station.map_or("-".into(), short);
                 let or_dash = |text: &str| if text.is_empty() { "-".to_owned() } else { text.to_owned() };
-                cells.extend([name.clone(), or_dash(&place.case), or_dash(&place.point), station]);
+                cells.extend([name.to_owned(), or_dash(&place.case), or_dash(&place.point), station]);
             }
             _ => {
                 cells.push(self.uses.get(item.at).map_or_else(String::new, |used| self.row_name(used)));
@@ -260,7 +270,7 @@ mod tests {
         let declared = |name: &str, of, place| Declared { name: name.into(), detail: String::new(), of, place };
         Table {
             constraints: vec![
-                declared("stress", "rib", Place { case: "ULS".into(), station: Some(0.5), point: "top".into() }),
+                declared("stress#2", "rib", Place { case: "ULS".into(), station: Some(0.5), point: "top".into() }),
                 declared("=sag", "", Place::default()),
             ],
             uses: vec![used(0, "r1", 100.0, 235.0, 0.4255), used(0, "r2", 235.0, 235.0, 1.0), used(1, "", 3.0, 4.0, 0.75)],
@@ -275,8 +285,8 @@ mod tests {
         let mut text = Vec::new();
         table().write(&mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("stress[r2]     2    235  <=    235       100"), "{text}");
-        assert!(!text.contains("stress[r1]") && text.contains("75"), "{text}");
+        assert!(text.contains("stress#2[r2]     2    235  <=    235       100"), "{text}");
+        assert!(!text.contains("[r1]") && text.contains("75"), "{text}");
     }
 
     #[test]
@@ -286,7 +296,7 @@ mod tests {
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.lines().next(), Some(LIMITS_HEADER));
         assert!(
-            text.contains("stress[r1],stress,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="),
+            text.contains("stress#2[r1],stress#2,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="),
             "{text}"
         );
     }

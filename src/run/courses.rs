@@ -49,6 +49,7 @@ pub(super) fn courses(subject: &Subject, x: &[f64]) -> Result<Option<Courses>, R
     (0..sets as u32).for_each(|set| asked.list(structure, statics, set, &courses.stations));
     let deflections = asked.answer(problem, structure, x, &mut courses)?;
     displace(structure, &deflections, &mut courses);
+    courses.without_rounding();
     Ok(Some(courses))
 }
 

@@ -17,6 +17,9 @@ impl<'a> Resolver<'a, '_> {
     /// The value of a dotted name.
     pub(super) fn name(&mut self, parts: &[String], span: Span) -> Option<Value> {
         let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        if self.is_outer(&parts) {
+            return self.outer_number(&parts[1..], span).map(Value::Scalar);
+        }
         if self.scope.is_some()
             && let Some(formula) = self.own(&parts, span)
         {
@@ -273,7 +276,7 @@ impl<'a> Resolver<'a, '_> {
         }
     }
 
-    fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
+    pub(super) fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
         let problem = self.world.problem;
         let number = *problem.sections.form.get(s as usize)?;
         if let Some(at) = sections::form(number).dimensions.iter().position(|given| *given == name) {
@@ -317,7 +320,7 @@ impl<'a> Resolver<'a, '_> {
         self.name(&parts, span)
     }
 
-    fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
+    pub(super) fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
         match name {
             "length" if self.moves(r) => {
                 Some(Formula::Response(Arc::new(Response { set: 0, subject: Subject::Rib(r), what: What::Length })))
@@ -351,7 +354,7 @@ impl<'a> Resolver<'a, '_> {
     }
 
     /// The number in a data cell of one item; `None` where there is no such column.
-    fn cell(&mut self, collection: Collection, item: u32, name: &str, span: Span) -> Option<Option<Formula>> {
+    pub(super) fn cell(&mut self, collection: Collection, item: u32, name: &str, span: Span) -> Option<Option<Formula>> {
         let columns = self.columns(collection);
         let at = columns.iter().position(|column| column.name == name)?;
         self.report.used.push((collection, at as u32));

@@ -123,7 +123,7 @@ impl<'a> RibUse<'a> {
         RibUse {
             rib,
             utilisation: most.map(|(_, share)| share),
-            governs: declared.map(|declared| declared.name.as_str()),
+            governs: declared.map(|declared| declared.written()),
             place: declared.map(|declared| PlacePart::of(&declared.place)).unwrap_or_default(),
         }
     }

@@ -10,6 +10,10 @@ use super::number::exact;
 use super::text::cell;
 use crate::problem::structure::Plane;
 
+/// Said once in every summary.
+pub const AXES: &str =
+    "z is up; ribs: x along, z height, y width; My bends about y and goes with Ix (Eurocode's Iy); N is positive in tension.";
+
 /// How `displacements.csv` and `reactions.csv` begin.
 pub const NODES_HEADER: &str = "node,case,x,y,z,rx,ry,rz";
 
@@ -105,6 +109,18 @@ impl Courses {
         all
     }
 
+    /// Displacements, reactions and forces that are zero but for rounding are zero.
+    pub fn without_rounding(&mut self) {
+        for case in &mut self.cases {
+            clean(case.forces.iter_mut().map(|all| &mut all[..3]));
+            clean(case.forces.iter_mut().map(|all| &mut all[3..]));
+            clean(case.nodes.iter_mut().map(|all| &mut all[..3]).chain(case.moved.iter_mut().map(|moved| &mut moved[..])));
+            clean(case.nodes.iter_mut().map(|all| &mut all[3..]));
+            clean(case.reactions.iter_mut().map(|(_, all)| &mut all[..3]));
+            clean(case.reactions.iter_mut().map(|(_, all)| &mut all[3..]));
+        }
+    }
+
     /// A member's place at a station.
     pub fn point(&self, member: usize, station: usize) -> [f64; 3] {
         let [from, to] = self.members[member].ends;
@@ -168,6 +184,15 @@ impl Courses {
         }
         table.flush()
     }
+}
+
+/// What rounding leaves of a zero, relative to the largest value of its kind in a case.
+const ROUNDING: f64 = 1e-12;
+
+fn clean<'a>(lists: impl Iterator<Item = &'a mut [f64]>) {
+    let mut values: Vec<&mut f64> = lists.flatten().collect();
+    let largest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    values.iter_mut().filter(|value| value.abs() <= ROUNDING * largest).for_each(|value| **value = 0.0);
 }
 
 type NodeValues<'a> = Box<dyn Iterator<Item = (u32, [f64; 6])> + 'a>;

@@ -53,6 +53,18 @@ fn one(
             let (point, moved) = (courses.point(member, station), case.moved[courses.at(member, station)]);
             drawing.at(below, std::array::from_fn(|axis| point[axis] + times * moved[axis]))
         });
+        let places: Vec<[f64; 2]> = places.collect();
+        let ends = [places.first(), places.last()];
+        for (end, node) in
+            ends.into_iter().zip(courses.members[member].nodes).filter_map(|(end, node)| Some((*end?, node as usize)))
+        {
+            let (position, moved) = (courses.nodes[node].position, case.nodes[node]);
+            let node = drawing.at(below, std::array::from_fn(|axis| position[axis] + times * moved[axis]));
+            // A rigid arm.
+            if (node[0] - end[0]).hypot(node[1] - end[1]) > 0.5 {
+                canvas.path(&through([node, end], false), Style::line(Ink::Curve(0), 2.5));
+            }
+        }
         canvas.path(&through(places, false), Style::line(Ink::Curve(0), line_width(courses)));
     }
     drawing.node_names(canvas, below, courses);

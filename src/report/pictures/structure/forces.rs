@@ -87,7 +87,8 @@ struct Panel<'a> {
 impl Panel<'_> {
     fn draw(&self, canvas: &mut Canvas, courses: &Courses, case: &CaseCourses) {
         let value = |member: usize, station: usize| case.forces[courses.at(member, station)][self.force];
-        let largest = case.forces.iter().map(|all| all[self.force].abs()).filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let sizes = case.forces.iter().map(|all| all[self.force].abs()).filter(|value| value.is_finite());
+        let largest = if is_there(case, self.force) { sizes.fold(0.0, f64::max) } else { 0.0 };
         let mut labels = Vec::new();
         let as_widths = courses.members.len() > MANY || courses.members.iter().all(|member| member.pinned);
         let thin = if as_widths { 0.5 } else { line_width(courses) };
