@@ -70,7 +70,10 @@ impl Resolver<'_, '_> {
         if fold != Fold::Sum {
             return self.mistake(span, "no item is chosen, so there is none to take", Some("widen the `where`".into()));
         }
-        self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+        // Of items resolved one by one some have none: the last of a row has nothing beyond it.
+        if self.item.is_none() {
+            self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+        }
         Some(Formula::Constant(0.0))
     }
 

@@ -145,7 +145,8 @@ mod tests {
     #[test]
     fn it_does_not_matter_which_way_faces_are_oriented() {
         let mesh = generate::dome(4, 6.0, 4.0);
-        let mut turned = PolygonMesh { vertices: mesh.vertices.clone(), ..PolygonMesh::default() };
+        let mut turned = PolygonMesh::default();
+        turned.vertices.clone_from(&mesh.vertices);
         mesh.faces().for_each(|face| turned.push_face(&face.iter().rev().copied().collect::<Vec<_>>()));
         let (a, b) = (of_vertices(&mesh), of_vertices(&turned));
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
@@ -162,8 +163,8 @@ mod tests {
     #[test]
     fn triangles_and_larger_faces_share_evenly_and_vertices_without_ribs_give_to_the_nearest_joint() {
         let corner = |k: usize| std::f64::consts::FRAC_PI_3 * k as f64;
-        let mut mesh = PolygonMesh::default();
-        mesh.vertices = (0..6).map(|k| Vector::new(corner(k).cos(), corner(k).sin(), 0.0)).collect();
+        let vertices = (0..6).map(|k| Vector::new(corner(k).cos(), corner(k).sin(), 0.0)).collect();
+        let mut mesh = PolygonMesh::from_quads(vertices, &[]);
         mesh.push_face(&[0, 1, 2, 3, 4, 5]);
         let found = of_vertices(&mesh);
         let hexagon = 1.5 * 3f64.sqrt();
