@@ -12,7 +12,6 @@ use std::path::{Path, PathBuf};
 const EXCEPTIONS: &[(&str, &str)] = &[
     ("expression/parse/condition", "the grammar is recursive: conditions hold expressions, which hold `where` conditions"),
     ("expression/structure/curvature", "the rules of products, norms and logarithms ask for the curvature of what stands inside"),
-    ("solvers/interior_point/engine", "one state machine: begin, line search, watchdog, restoration and polish are its steps"),
     ("recession/floor", "the floor of a valley is found along the valley, and the valley ends on it"),
     ("certificate/point", "a point's scales are computed from its derivatives and kept with them"),
     ("crosscheck/session", "the session is what every step of the verdict works on"),

@@ -125,3 +125,20 @@ pub struct Solution {
     /// The evaluation error that ended the run, if one did.
     pub invalid: Option<String>,
 }
+
+impl Solution {
+    /// The start, where nothing was run or nothing came of it.
+    pub fn at_start(job: &Job<'_>, termination: Termination, message: impl Into<String>) -> Self {
+        Solution {
+            algorithm: job.algorithm.to_owned(),
+            termination,
+            message: message.into(),
+            x: job.start.to_vec(),
+            multipliers: None,
+            iterations: None,
+            evaluations: 0,
+            seconds: 0.0,
+            invalid: None,
+        }
+    }
+}

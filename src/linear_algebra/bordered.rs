@@ -1,12 +1,13 @@
 //! Symmetric matrices that fall into small blocks but for a border of few rows that reach far, such as limits on whole lines of
 //! ribs: the blocks are eliminated one by one, and what they leave of the border is one dense matrix.
 
-use std::ops::Range;
+mod blocks;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::bunch_kaufman::{self, Pivot};
 use super::{Inertia, Partition, Pattern};
+use blocks::{Block, couplings, largest, product};
 
 /// Unknowns coupled to more others than this belong to the border.
 const WIDE: u32 = 32;
@@ -38,31 +39,6 @@ pub struct Bordered {
     factors: Vec<f64>,
     pivots: Vec<Pivot>,
     schur: Option<Cholesky<f64, Dyn>>,
-}
-
-struct Block {
-    unknowns: Range<usize>,
-    /// Its part of the border, ascending.
-    touched: Range<usize>,
-    /// Where its entries begin, and those of its part of C.
-    matrix: usize,
-    coupling: usize,
-}
-
-impl Block {
-    fn size(&self) -> usize {
-        self.unknowns.len()
-    }
-
-    fn entries(&self) -> Range<usize> {
-        self.matrix..self.coupling
-    }
-
-    /// Row k of its part of C.
-    fn coupling(&self, k: usize) -> Range<usize> {
-        let first = self.coupling + k * self.size();
-        first..first + self.size()
-    }
 }
 
 impl Bordered {
@@ -226,27 +202,6 @@ impl Bordered {
         }
         residual
     }
-}
-
-/// Component and place in the border of all entries between the two, sorted, each once.
-fn couplings(pattern: &Pattern, partition: &Partition, in_border: impl Fn(usize) -> Option<usize>) -> Vec<(u32, u32)> {
-    let pair = |(i, j): (usize, usize)| match (in_border(i), in_border(j)) {
-        (Some(row), None) => Some((partition.component(j as u32), row as u32)),
-        (None, Some(row)) => Some((partition.component(i as u32), row as u32)),
-        _ => None,
-    };
-    let mut pairs: Vec<(u32, u32)> = pattern.iter().filter_map(pair).collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
-}
-
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value.abs()) })
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@
 pub mod affine;
 pub mod cells;
 mod collections;
+mod constraint;
+mod data;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
@@ -28,7 +30,6 @@ pub mod structure;
 pub mod texts;
 pub mod words;
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::expression::ast::Collection;
@@ -36,11 +37,12 @@ use crate::geometry::polygon::Ring;
 pub use crate::ribs::law::VolumeLaw;
 use crate::sections;
 pub use collections::sections_form;
+pub use constraint::{Constraint, Limit, Scope};
+pub use data::{Cells, Column, Dimension, Origin, Ribs, Sections, Variables};
 pub use formula::{Formula, Property};
 pub use profile::Profile;
 pub use settings::Settings;
 pub use structure::Structure;
-use texts::Texts;
 
 /// Everything a problem file says, checked.
 #[derive(Debug, Clone, Default)]
@@ -86,17 +88,6 @@ pub struct Problem {
     pub settings: Settings,
     /// What the reader wants said: moved starts, unused data, …; already worded.
     pub warnings: Vec<String>,
-}
-
-impl Scope {
-    /// How many rows it makes (before min, max and abs split any).
-    pub fn rows(&self) -> usize {
-        match self {
-            Scope::Once => 1,
-            Scope::Sections(items) | Scope::Ribs(items) | Scope::Nodes(items) => items.len(),
-            Scope::RibGroups(groups) | Scope::SectionGroups(groups) | Scope::NodeGroups(groups) => groups.len(),
-        }
-    }
 }
 
 impl Problem {
@@ -170,174 +161,4 @@ pub enum Sense {
     #[default]
     Minimize,
     Maximize,
-}
-
-/// Scalar variables, column by column.
-#[derive(Debug, Clone, Default)]
-pub struct Variables {
-    /// Where each comes from; [`Problem::variable_name`] builds the name users see.
-    pub origin: Vec<Origin>,
-    /// Names of `[variables]` entries, pointed at by [`Origin`].
-    pub declared: Vec<Box<str>>,
-    /// Lower bounds, −∞ where open.
-    pub lower: Vec<f64>,
-    /// Upper bounds, +∞ where open.
-    pub upper: Vec<f64>,
-    /// Starting values, already inside the bounds.
-    pub start: Vec<f64>,
-    /// Magnitudes of the starts that were given, 0 where one was left out; may be shorter than the others where the last ones
-    /// were left out.
-    pub typical: Vec<f64>,
-}
-
-impl Variables {
-    /// Leaves out all but the first `count`.
-    pub fn truncate(&mut self, count: usize) {
-        self.origin.truncate(count);
-        for column in [&mut self.lower, &mut self.upper, &mut self.start] {
-            column.truncate(count);
-        }
-    }
-}
-
-/// Where a scalar variable comes from (names of six million variables are not kept as text).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Origin {
-    /// `depth`: an entry of [`Variables::declared`].
-    Scalar(u32),
-    /// `x[2]`: an entry of [`Variables::declared`] and its index, counted from 1.
-    Element(u32, u32),
-    /// `support.b`: a section and the position of the dimension in its form.
-    Dimension(u32, u8),
-    /// What a structure's formulas take besides the design: a deformation or a displacement, by number.
-    Input(u32),
-}
-
-/// One dimension of one section, or one given number of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Dimension {
-    /// A fixed number.
-    Constant(f64),
-    /// Exactly one variable (its own, or a link such as `h = "depth"`).
-    Variable(u32),
-    /// A computed value: index into [`Problem::dimension_formulas`].
-    Formula(u32),
-}
-
-/// Cross-sections, column by column. Section `s` has the dimensions
-/// `dimensions[first_dimension[s] .. first_dimension[s + 1]]`, in the order of its form's names.
-#[derive(Debug, Clone, Default)]
-pub struct Sections {
-    /// Names.
-    pub names: Texts,
-    /// Number for [`crate::sections::form`]: the kind and which of its dimensions are given.
-    pub form: Vec<u16>,
-    /// Offsets into `dimensions`, one more than sections.
-    pub first_dimension: Vec<u32>,
-    /// Dimensions of all sections.
-    pub dimensions: Vec<Dimension>,
-    /// Rings of points (the polygon's or line's, then the holes') for kinds that have them, by section.
-    pub outlines: HashMap<u32, Arc<Vec<Ring>>>,
-    /// Data columns.
-    pub data: Vec<Column>,
-}
-
-/// Ribs, column by column.
-#[derive(Debug, Clone, Default)]
-pub struct Ribs {
-    /// Names.
-    pub names: Texts,
-    /// Section at the left end.
-    pub from: Vec<u32>,
-    /// Section at the right end (the same for a prismatic rib).
-    pub to: Vec<u32>,
-    /// Lengths, positive.
-    pub length: Vec<f64>,
-    /// Volume laws.
-    pub law: Vec<VolumeLaw>,
-    /// Data columns.
-    pub data: Vec<Column>,
-}
-
-/// One data column of sections or ribs.
-#[derive(Debug, Clone)]
-pub struct Column {
-    /// Its name.
-    pub name: String,
-    /// Its cells.
-    pub cells: Cells,
-}
-
-/// The cells of a column. Numbers are NaN where a row has none; texts are indices into `labels`, `u32::MAX` where none.
-#[derive(Debug, Clone)]
-#[allow(missing_docs)]
-pub enum Cells {
-    Numbers(Vec<f64>),
-    Labels { labels: Vec<Box<str>>, of: Vec<u32> },
-}
-
-/// One `[[constraints]]` entry.
-#[derive(Debug, Clone)]
-pub struct Constraint {
-    /// Its name; rows of a scoped one are `name[item]`, of an unnamed one `c1`, `c2`, ….
-    pub name: String,
-    /// What tells its rows from those of the same declaration at another case, station or point: `ULS, 0.5, top-left`; empty where it
-    /// is spread over none.
-    pub detail: Box<str>,
-    /// Where it stands, ready to print: `file.toml:12`.
-    pub place: String,
-    /// The text of `require`, for reports.
-    pub text: String,
-    /// One row, or one per section, rib or group.
-    pub scope: Scope,
-    /// Left side (or the middle of a range). Inside a scope, item names are resolved to the `Own…` formulas.
-    pub left: Formula,
-    /// Right side. Where it has no variables its value is the row's limit.
-    pub right: Limit,
-}
-
-/// What a row's left side is held against.
-#[derive(Debug, Clone)]
-#[allow(missing_docs)]
-pub enum Limit {
-    AtMost(Formula),
-    AtLeast(Formula),
-    Equal(Formula),
-    Between(Formula, Formula),
-}
-
-impl Limit {
-    /// Its formulas.
-    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
-        self.sides().into_iter().flatten()
-    }
-
-    /// The limit from below and the one from above; for an equality both.
-    pub fn sides(&self) -> [Option<&Formula>; 2] {
-        match self {
-            Limit::AtMost(limit) => [None, Some(limit)],
-            Limit::AtLeast(limit) => [Some(limit), None],
-            Limit::Equal(value) => [Some(value), Some(value)],
-            Limit::Between(lower, upper) => [Some(lower), Some(upper)],
-        }
-    }
-}
-
-/// The items a constraint is repeated for.
-#[derive(Debug, Clone)]
-pub enum Scope {
-    /// One row.
-    Once,
-    /// One row per chosen section, by index.
-    Sections(Vec<u32>),
-    /// One row per chosen rib, by index.
-    Ribs(Vec<u32>),
-    /// One row per group of ribs: label and members. Folds inside run over the members; plain data come from the first.
-    RibGroups(Vec<(Box<str>, Vec<u32>)>),
-    /// One row per group of sections.
-    SectionGroups(Vec<(Box<str>, Vec<u32>)>),
-    /// One row per chosen node, by index.
-    Nodes(Vec<u32>),
-    /// One row per group of nodes.
-    NodeGroups(Vec<(Box<str>, Vec<u32>)>),
 }

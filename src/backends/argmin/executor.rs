@@ -1,89 +1,80 @@
-//! Our solvers under argmin's executor: its state carries our iterates, its observer shows them, and its best point is feasible
+//! Our solvers under argmin's executor: its state carries our iterates, they are shown as they come, and its best point is feasible
 //! before it is cheap. (argmin's own `IterState` keeps the lowest cost, however infeasible.)
 
 use std::collections::HashMap;
 use std::time::Duration;
 
-use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, KV, Problem, Solver, State, TerminationReason, TerminationStatus};
 
-use crate::backends::{Iteration, Job};
+use crate::backends::{Iteration, Job, Solution, Termination};
 use crate::model::Evaluator;
 use crate::solvers::{self, Conclusion, Point, Progress, Reached, Why};
 
-/// What a run leaves behind.
-pub(super) struct Finished {
-    pub conclusion: Conclusion,
-    pub x: Vec<f64>,
-    pub multipliers: Option<Vec<f64>>,
-    pub iterations: u64,
-}
-
-impl Finished {
-    /// Nothing came of it.
-    pub fn at_start(start: &[f64], conclusion: Conclusion) -> Self {
-        Finished { conclusion, x: start.to_vec(), multipliers: None, iterations: 0 }
-    }
-}
-
 /// Runs a solver to its end or to the limit on iterations, showing every iteration to the job's observer.
-pub(super) fn run(solver: impl solvers::Solver, evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
-    let observer = std::cell::RefCell::new(&mut *job.observer);
-    let report = |iteration: &Iteration<'_>| (observer.borrow_mut())(iteration);
-    let executor = Executor::new(evaluator, Driven(solver))
-        .configure(|state: NlpState<'_>| NlpState {
-            start: job.start.to_vec(),
-            max_iterations: job.max_iterations,
-            tolerance: job.constraint_tolerance,
-            report: Some(&report),
-            ..state
-        })
-        .add_observer(Watch, ObserverMode::Always)
+pub(super) fn run(solver: impl solvers::Solver, evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
+    let (max_iterations, tolerance) = (job.max_iterations, job.constraint_tolerance);
+    let executor = Executor::new(evaluator, Driven { solver, observer: &mut *job.observer })
+        .configure(|state: NlpState| NlpState { max_iterations, tolerance, ..state })
         // The process has one handler, and the command line owns it.
         .ctrlc(false);
     match executor.run() {
-        Ok(result) => result.state.finish(),
-        Err(error) => Finished::at_start(job.start, Conclusion::new(Why::Failed, error.to_string())),
+        Ok(result) => result.state.solution(job),
+        Err(error) => Solution::at_start(job, Termination::Failed, error.to_string()),
+    }
+}
+
+/// A run that ended like this at a point, or where it began.
+pub(super) fn concluded(conclusion: Conclusion, point: Option<Point>, job: &Job<'_>) -> Solution {
+    let termination = match conclusion.why {
+        Why::Converged => Termination::Converged,
+        Why::LimitReached => Termination::LimitReached,
+        Why::Interrupted => Termination::Interrupted,
+        Why::Failed => Termination::Failed,
+    };
+    let blank = Solution { invalid: conclusion.invalid, ..Solution::at_start(job, termination, conclusion.message) };
+    match point {
+        Some(Point { x, multipliers, .. }) => Solution { x, multipliers, ..blank },
+        None => blank,
     }
 }
 
 /// One of our solvers as one of argmin's.
-struct Driven<S>(S);
+struct Driven<'o, S> {
+    solver: S,
+    observer: &'o mut dyn FnMut(&Iteration<'_>),
+}
 
-impl<'a, 's, S: solvers::Solver> Solver<&'a Evaluator<'a>, NlpState<'s>> for Driven<S> {
+type Advanced = Result<(NlpState, Option<KV>), Error>;
+
+impl<'a, S: solvers::Solver> Solver<&'a Evaluator<'a>, NlpState> for Driven<'_, S> {
     fn name(&self) -> &str {
-        self.0.name()
+        self.solver.name()
     }
 
-    fn init(
-        &mut self,
-        _problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let progress = self.0.begin();
-        Ok((state.take(progress), None))
+    fn init(&mut self, _problem: &mut Problem<&'a Evaluator<'a>>, state: NlpState) -> Advanced {
+        let progress = self.solver.begin();
+        let state = state.take(progress);
+        state.show(0, self.observer);
+        Ok((state, None))
     }
 
-    fn next_iter(
-        &mut self,
-        _problem: &mut Problem<&'a Evaluator<'a>>,
-        state: NlpState<'s>,
-    ) -> Result<(NlpState<'s>, Option<KV>), Error> {
-        let progress = self.0.step(state.iteration + 1 >= state.max_iterations);
-        Ok((state.take(progress), None))
+    fn next_iter(&mut self, _problem: &mut Problem<&'a Evaluator<'a>>, state: NlpState) -> Advanced {
+        let progress = self.solver.step(state.iteration + 1 >= state.max_iterations);
+        let state = state.take(progress);
+        state.show(state.iteration + 1, self.observer);
+        Ok((state, None))
     }
 }
 
 /// What the executor carries from iteration to iteration.
-struct NlpState<'a> {
+#[derive(Default)]
+struct NlpState {
     current: Option<Reached>,
     best: Option<Point>,
-    start: Vec<f64>,
     conclusion: Option<Conclusion>,
     /// The point to hand back, where it is not the best one by rank.
     answer: Option<Point>,
     tolerance: f64,
-    report: Option<&'a dyn Fn(&Iteration<'_>)>,
     iteration: u64,
     last_best: u64,
     max_iterations: u64,
@@ -92,7 +83,7 @@ struct NlpState<'a> {
     status: TerminationStatus,
 }
 
-impl NlpState<'_> {
+impl NlpState {
     /// Takes over what an iteration came to.
     fn take(mut self, progress: Progress) -> Self {
         self.current = progress.at.or(self.current);
@@ -102,35 +93,34 @@ impl NlpState<'_> {
         self.terminate_with(reason)
     }
 
+    fn show(&self, iteration: u64, observer: &mut dyn FnMut(&Iteration<'_>)) {
+        if let Some(Reached { point, step_norm, evaluations }) = &self.current {
+            observer(&Iteration {
+                iteration,
+                evaluations: *evaluations,
+                objective: point.objective,
+                feasibility: point.feasibility,
+                optimality: point.optimality,
+                step_norm: *step_norm,
+                x: &point.x,
+            });
+        }
+    }
+
     /// The run's result: the solver's answer, or the best point by rank.
-    fn finish(self) -> Finished {
+    fn solution(self, job: &Job<'_>) -> Solution {
         let limit = || format!("the limit on iterations, {}, is reached", self.max_iterations);
         let conclusion = self.conclusion.unwrap_or_else(|| Conclusion::new(Why::LimitReached, limit()));
-        let (x, multipliers) = self.answer.or(self.best).map_or((self.start, None), |point| (point.x, point.multipliers));
-        Finished { conclusion, x, multipliers, iterations: self.iteration }
+        Solution { iterations: Some(self.iteration), ..concluded(conclusion, self.answer.or(self.best), job) }
     }
 }
 
-impl State for NlpState<'_> {
+impl State for NlpState {
     type Param = Vec<f64>;
     type Float = f64;
 
     fn new() -> Self {
-        NlpState {
-            current: None,
-            best: None,
-            start: Vec::new(),
-            conclusion: None,
-            answer: None,
-            tolerance: 0.0,
-            report: None,
-            iteration: 0,
-            last_best: 0,
-            max_iterations: u64::MAX,
-            counts: HashMap::new(),
-            time: None,
-            status: TerminationStatus::NotTerminated,
-        }
+        NlpState { max_iterations: u64::MAX, ..NlpState::default() }
     }
 
     fn update(&mut self) {
@@ -173,11 +163,8 @@ impl State for NlpState<'_> {
         f64::NEG_INFINITY
     }
 
-    fn func_counts<O>(&mut self, problem: &Problem<O>) {
-        for (name, count) in &problem.counts {
-            self.counts.insert((*name).to_owned(), *count);
-        }
-    }
+    /// Evaluations are counted by [`Evaluator`].
+    fn func_counts<O>(&mut self, _problem: &Problem<O>) {}
 
     fn get_func_counts(&self) -> &HashMap<String, u64> {
         &self.counts
@@ -214,36 +201,5 @@ impl State for NlpState<'_> {
             TerminationStatus::Terminated(reason) => Some(reason),
             TerminationStatus::NotTerminated => None,
         }
-    }
-}
-
-/// Shows every iteration to the job's observer.
-struct Watch;
-
-impl Watch {
-    fn show(state: &NlpState<'_>, iteration: u64) {
-        if let (Some(report), Some(Reached { point, step_norm, evaluations })) = (state.report, &state.current) {
-            report(&Iteration {
-                iteration,
-                evaluations: *evaluations,
-                objective: point.objective,
-                feasibility: point.feasibility,
-                optimality: point.optimality,
-                step_norm: *step_norm,
-                x: &point.x,
-            });
-        }
-    }
-}
-
-impl<'a> Observe<NlpState<'a>> for Watch {
-    fn observe_init(&mut self, _name: &str, state: &NlpState<'a>, _kv: &KV) -> Result<(), Error> {
-        Self::show(state, 0);
-        Ok(())
-    }
-
-    fn observe_iter(&mut self, state: &NlpState<'a>, _kv: &KV) -> Result<(), Error> {
-        Self::show(state, state.iteration + 1);
-        Ok(())
     }
 }

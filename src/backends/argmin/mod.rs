@@ -8,11 +8,11 @@ use std::time::Instant;
 
 use super::{Backend, Job, Solution, Termination};
 use crate::model::{Evaluator, Model};
+use crate::solvers::Conclusion;
 use crate::solvers::augmented_lagrangian::{self, AugmentedLagrangian};
 use crate::solvers::block_interior_point::{self, BlockInteriorPoint};
 use crate::solvers::interior_point::InteriorPoint;
-use crate::solvers::{Conclusion, Why};
-use executor::{Finished, run};
+use executor::{concluded, run};
 
 const INTERIOR_POINT: &str = "interior-point";
 const AUGMENTED_LAGRANGIAN: &str = "augmented-lagrangian";
@@ -51,19 +51,20 @@ impl Backend for Argmin {
 
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution {
         if let Some(message) = self.refusal(job.algorithm, model) {
-            return refused(job, message);
+            return Solution::at_start(job, Termination::Refused, message);
         }
         let began = Instant::now();
         let evaluator = Evaluator::new(model, job.budget);
-        let (algorithm, finished) = match job.algorithm {
+        let (algorithm, solution) = match job.algorithm {
             AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, by_augmented_lagrangian(&evaluator, job)),
             _ => (INTERIOR_POINT, by_interior_point(&evaluator, job)),
         };
-        solution(algorithm, finished, &evaluator, began)
+        let (evaluations, seconds) = (evaluator.evaluations(), began.elapsed().as_secs_f64());
+        Solution { algorithm: algorithm.into(), evaluations, seconds, ..solution }
     }
 }
 
-fn by_interior_point(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
+fn by_interior_point(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
     match block_interior_point::decomposes(evaluator) {
         Some(components) => {
             let solver = BlockInteriorPoint::new(evaluator, components.as_ref(), job.start, job.start_multipliers);
@@ -76,44 +77,9 @@ fn by_interior_point(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
     }
 }
 
-fn by_augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Finished {
+fn by_augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
     match AugmentedLagrangian::new(evaluator, job.start, job.start_multipliers, job.stop_test) {
         Ok(solver) => run(solver, evaluator, job),
-        Err(error) => Finished::at_start(job.start, Conclusion::of(&error)),
-    }
-}
-
-fn solution(algorithm: &str, run: Finished, evaluator: &Evaluator<'_>, began: Instant) -> Solution {
-    let Finished { conclusion: Conclusion { why, message, invalid }, x, multipliers, iterations } = run;
-    let termination = match why {
-        Why::Converged => Termination::Converged,
-        Why::LimitReached => Termination::LimitReached,
-        Why::Interrupted => Termination::Interrupted,
-        Why::Failed => Termination::Failed,
-    };
-    Solution {
-        algorithm: algorithm.into(),
-        termination,
-        message,
-        x,
-        multipliers,
-        iterations: Some(iterations),
-        evaluations: evaluator.evaluations(),
-        seconds: began.elapsed().as_secs_f64(),
-        invalid,
-    }
-}
-
-fn refused(job: &Job<'_>, message: String) -> Solution {
-    Solution {
-        algorithm: job.algorithm.into(),
-        termination: Termination::Refused,
-        message,
-        x: job.start.to_vec(),
-        multipliers: None,
-        iterations: None,
-        evaluations: 0,
-        seconds: 0.0,
-        invalid: None,
+        Err(error) => concluded(Conclusion::of(&error), None, job),
     }
 }

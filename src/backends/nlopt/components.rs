@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Nlopt, blank};
+use super::Nlopt;
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::model::components::Components;
 use crate::model::{Budget, Model};
@@ -72,7 +72,7 @@ impl<'a> Common<'a> {
             observer: &mut |_| {},
         };
         if job.stop_test.is_some_and(|passes| passes(&start)) {
-            return Solution { termination: Termination::Converged, message: "the start passes".into(), ..blank(&job) };
+            return Solution::at_start(&job, Termination::Converged, "the start passes");
         }
         Nlopt.solve(model.as_ref(), &mut job)
     }

@@ -66,7 +66,7 @@ impl Backend for Nlopt {
     fn solve(&self, model: &dyn Model, job: &mut Job<'_>) -> Solution {
         let began = Instant::now();
         let mut solution = match self.refusal(job.algorithm, model).or_else(|| odd_start(model, job.start)) {
-            Some(refusal) => Solution { termination: Termination::Refused, message: refusal, ..blank(job) },
+            Some(refusal) => Solution::at_start(job, Termination::Refused, refusal),
             None if algorithms::is_fixed(model.meta()) => fixed(job),
             None => components::solve(model, job).unwrap_or_else(|| run(model, job)),
         };
@@ -81,27 +81,13 @@ fn odd_start(model: &dyn Model, start: &[f64]) -> Option<String> {
     (!fits).then(|| format!("NLopt: the start must hold {} finite numbers", model.meta().variables()))
 }
 
-fn blank(job: &Job<'_>) -> Solution {
-    Solution {
-        algorithm: job.algorithm.to_owned(),
-        termination: Termination::Failed,
-        message: String::new(),
-        x: job.start.to_vec(),
-        multipliers: None,
-        iterations: None,
-        evaluations: 0,
-        seconds: 0.0,
-        invalid: None,
-    }
-}
-
 /// The answer where there is nothing to vary.
 fn fixed(job: &Job<'_>) -> Solution {
-    Solution { termination: Termination::Converged, message: "every variable is fixed".into(), ..blank(job) }
+    Solution::at_start(job, Termination::Converged, "every variable is fixed")
 }
 
 fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
-    let blank = blank(job);
+    let blank = Solution::at_start(job, Termination::Failed, "NLopt: there was nothing to try");
     let meta = model.meta();
     let plan = match algorithms::find(job.algorithm) {
         Some(algorithm) => plan::named(algorithm, meta),
@@ -115,7 +101,7 @@ fn run(model: &dyn Model, job: &mut Job<'_>) -> Solution {
     let x = answer.map_or_else(|| blank.x.clone(), |answer| answer.x.clone());
     let evaluations = evaluator.evaluations();
     match outcome {
-        None => Solution { message: "NLopt: there was nothing to try".into(), ..blank },
+        None => blank,
         Some(outcome) => Solution {
             algorithm: outcome.algorithm.into(),
             termination: termination(&outcome.end, watch.proved().is_some() || watch.is_unbounded(), is_auto),

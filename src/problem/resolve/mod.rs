@@ -6,17 +6,17 @@ pub mod outer;
 mod over;
 mod profile;
 pub mod response;
+mod world;
 
+use super::Formula;
 use super::evaluate::{Evaluation, Item};
-use super::names::Names;
-use super::{Formula, Problem};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
+pub use world::{Chosen, Open, Remark, Report, Stage, World};
 
 pub use super::item_scope::ItemScope;
 pub use condition::Filter;
-pub use response::{Chosen, Open};
 
 /// One number's formula, or an array of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,60 +24,6 @@ pub use response::{Chosen, Open};
 pub enum Value {
     Scalar(Formula),
     Array(Vec<Formula>),
-}
-
-/// Something to be said about a part of an expression.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Remark {
-    /// The part.
-    pub span: Span,
-    /// What is wrong with it.
-    pub message: String,
-    /// What would be right.
-    pub help: Option<String>,
-}
-
-/// What came to light besides the formula.
-#[derive(Debug, Default)]
-pub struct Report {
-    /// Mistakes; where there is one, there is no formula.
-    pub mistakes: Vec<Remark>,
-    /// Item names that hide a global one, and choices made at the start.
-    pub warnings: Vec<Remark>,
-    /// What responses left open.
-    pub open: Open,
-    /// Data columns that occur.
-    pub used: Vec<(Collection, u32)>,
-}
-
-/// Which names may occur.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage {
-    /// Parameters only.
-    Constants,
-    /// Parameters, variables, and definitions made of these.
-    Variables,
-    /// Everything declared.
-    All,
-}
-
-/// What names can refer to.
-#[derive(Clone, Copy)]
-pub struct World<'a> {
-    /// Sections and ribs with their data; variables; definitions and dimensions as far as they are resolved.
-    pub problem: &'a Problem,
-    /// Who is who.
-    pub names: &'a Names,
-    /// Values of parameters; `None` where a mistake was reported.
-    pub parameters: &'a [Option<Value>],
-    /// For each entry of `[variables]`: its first scalar variable, and its size if it is an array.
-    pub variables: &'a [(u32, Option<u32>)],
-    /// Values of definitions; `None` where a mistake was reported.
-    pub definitions: &'a [Option<Value>],
-    /// Which of these may occur.
-    pub stage: Stage,
-    /// The row a constraint is being spread over.
-    pub chosen: Chosen<'a>,
 }
 
 /// Resolves expressions in one scope.

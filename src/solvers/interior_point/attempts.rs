@@ -2,25 +2,15 @@
 //! and from elsewhere where the first run failed.
 
 use super::begin::InitialPoint;
-use super::engine::{Ending, Engine};
-use super::form::{Form, Source};
+use super::ending::Ending;
+use super::engine::Engine;
+use super::parameters::PARAMETERS;
 use super::scaling;
+use super::slack_form::Source;
 use super::start;
+use super::state::State;
 use crate::model::{EvaluationError, Model};
 use crate::solvers::{Conclusion, Point};
-
-/// Scales that moved by less than this factor still fit.
-const OUTGROWN: f64 = 1e3;
-/// A variable's scale shrinks to this share at the most.
-const SMALLEST_SHARE: f64 = 1e-8;
-/// Runs in new scales at the most.
-const MOST_RESCALED: usize = 3;
-/// Runs from elsewhere, each this share of the way towards the middle of the bounds, with this barrier parameter.
-const RESTART_POINTS: [(f64, f64); 2] = [(0.1, 1.0), (0.5, 10.0)];
-/// By how much these runs ease the limits of rows, so that rows without an interior have one.
-const EASE: f64 = 1e-9;
-/// Larger problems are not begun again from elsewhere: it would take too long.
-const LARGEST_REPEATED: usize = 10_000;
 
 /// What became of earlier runs.
 #[derive(Default)]
@@ -40,20 +30,20 @@ impl Attempts {
         engine: &mut Engine<'a>,
         (ending, conclusion, point): (Ending, Conclusion, Point),
     ) -> Result<Option<Engine<'a>>, EvaluationError> {
-        let solved = matches!(ending, Ending::Optimal | Ending::Acceptable);
+        let solved = ending.is_solved();
         if self.earlier.as_ref().is_none_or(|earlier| supersedes(&ending, &point, earlier)) {
             self.earlier = Some((ending.clone(), conclusion, point));
         }
         if solved {
             return self.in_new_scales(model, start, engine);
         }
-        let after_solved =
-            self.earlier.as_ref().is_some_and(|(ending, ..)| matches!(ending, Ending::Optimal | Ending::Acceptable));
-        let hopeless = matches!(ending, Ending::Diverging(_)) || start.len() > LARGEST_REPEATED || after_solved;
-        let Some(&(share, mu)) = RESTART_POINTS.get(self.elsewhere).filter(|_| !hopeless) else { return Ok(None) };
+        let after_solved = self.earlier.as_ref().is_some_and(|(ending, ..)| ending.is_solved());
+        let hopeless =
+            matches!(ending, Ending::Diverging(_)) || start.len() > PARAMETERS.attempts.largest_repeated || after_solved;
+        let Some(&(share, mu)) = PARAMETERS.attempts.elsewhere.get(self.elsewhere).filter(|_| !hopeless) else { return Ok(None) };
         self.elsewhere += 1;
         let x = start::towards_middle(model.meta(), start, share);
-        begin(model, InitialPoint { mu: Some(mu), ease: EASE, ..InitialPoint::at(&x) })
+        begin(model, InitialPoint { mu: Some(mu), ease: PARAMETERS.attempts.ease, ..InitialPoint::at(&x) })
     }
 
     fn in_new_scales<'a>(
@@ -62,12 +52,13 @@ impl Attempts {
         start: &[f64],
         engine: &mut Engine<'a>,
     ) -> Result<Option<Engine<'a>>, EvaluationError> {
-        if self.rescaled >= MOST_RESCALED {
+        if self.rescaled >= PARAMETERS.attempts.most_rescaled {
             return Ok(None);
         }
-        let Some(magnitudes) = outgrown(engine, start) else { return Ok(None) };
+        let Some(magnitudes) = outgrown(&engine.state, start) else { return Ok(None) };
         self.rescaled += 1;
-        let x = engine.form.x(&engine.iterate.w).to_vec();
+        let State { form, iterate, .. } = &mut engine.state;
+        let x = form.x(&iterate.w).to_vec();
         begin(model, InitialPoint { magnitudes: &magnitudes, ..InitialPoint::at(&x) })
     }
 
@@ -107,32 +98,31 @@ fn supersedes(ending: &Ending, point: &Point, (earlier, _, earlier_point): &(End
 }
 
 /// The magnitudes of the variables at the iterate, if scales by them differ much from those in use.
-fn outgrown(engine: &Engine<'_>, start: &[f64]) -> Option<Vec<f64>> {
-    let form = &engine.form;
+fn outgrown(state: &State<'_>, start: &[f64]) -> Option<Vec<f64>> {
+    let State { form, iterate, .. } = state;
     let mut magnitudes = start.to_vec();
     let mut growth = vec![1.0; form.variables()];
     for (at, &j) in form.free.iter().enumerate() {
         let scale = form.variable_scale[at];
-        let x = engine.iterate.w[at] * scale;
+        let x = iterate.w[at] * scale;
         // A variable that ends on its bound, or next to it, tells nothing of its magnitude by being small.
-        let on_bound = engine.iterate.w[at] == form.lower[at] || engine.iterate.w[at] == form.upper[at];
-        let least = if on_bound { scale } else { scale * SMALLEST_SHARE };
+        let on_bound = iterate.w[at] == form.lower[at] || iterate.w[at] == form.upper[at];
+        let least = if on_bound { scale } else { scale * PARAMETERS.attempts.smallest_share };
         magnitudes[j] = x.abs().max(start[j].abs()).max(least);
         growth[at] = scaling::variable_scale(magnitudes[j], f64::NEG_INFINITY, f64::INFINITY) / scale;
     }
-    let much = |factor: f64| factor > OUTGROWN || factor * OUTGROWN < 1.0;
-    let moved = growth.iter().any(|&factor| much(factor)) || rows_outgrown(form, engine, &growth).any(much);
+    let much = |factor: f64| factor > PARAMETERS.attempts.outgrown || factor * PARAMETERS.attempts.outgrown < 1.0;
+    let moved = growth.iter().any(|&factor| much(factor)) || rows_outgrown(state, &growth).any(much);
     moved.then_some(magnitudes)
 }
 
 /// By which factors objective and rows would be scaled differently.
-fn rows_outgrown<'e>(form: &'e Form<'_>, engine: &'e Engine<'_>, growth: &'e [f64]) -> impl Iterator<Item = f64> + 'e {
+fn rows_outgrown<'e>(State { form, iterate, .. }: &'e State<'_>, growth: &'e [f64]) -> impl Iterator<Item = f64> + 'e {
     let rows = (0..form.rows.len()).map(move |i| {
-        let size =
-            form.jacobian.range(i).map(|at| (engine.iterate.jacobian[at] * growth[form.jacobian.columns[at] as usize]).abs());
+        let size = form.jacobian.range(i).map(|at| (iterate.jacobian[at] * growth[form.jacobian.columns[at] as usize]).abs());
         size.fold(0.0, f64::max)
     });
-    let objective = engine.iterate.gradient.iter().zip(growth).map(|(g, d)| (g * d).abs()).fold(0.0, f64::max);
+    let objective = iterate.gradient.iter().zip(growth).map(|(g, d)| (g * d).abs()).fold(0.0, f64::max);
     // The objective's gradient may vanish at a solution: only scales that were cut down too far count.
     let objective = if form.objective_scale < 1.0 || objective > 1.0 { objective } else { 1.0 };
     rows.chain([objective]).map(|size| scaling::gradient_scale(size, 0.0))

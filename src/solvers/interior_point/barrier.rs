@@ -2,8 +2,8 @@
 //!
 //! Wächter & Biegler (2006), equations (3), (8), (12), (13), (15), (16), and §3.7 for the damping of one-sided bounds.
 
-use super::form::Form;
 use super::parameters::PARAMETERS;
+use super::slack_form::SlackForm;
 
 /// +1 where only the lower bound is there, −1 where only the upper one is, else 0.
 fn one_sided(lower: f64, upper: f64) -> f64 {
@@ -11,7 +11,7 @@ fn one_sided(lower: f64, upper: f64) -> f64 {
 }
 
 /// The barrier terms −μ·Σ ln(slack) with damping. +∞ outside the interior.
-pub(super) fn value(form: &Form<'_>, w: &[f64], mu: f64) -> f64 {
+pub(super) fn value(form: &SlackForm<'_>, w: &[f64], mu: f64) -> f64 {
     let (mut product_log, mut damping) = (0.0, 0.0);
     for ((&w, &lower), &upper) in w.iter().zip(&form.lower).zip(&form.upper) {
         let side = one_sided(lower, upper);
@@ -32,7 +32,7 @@ fn log(slack: f64) -> f64 {
 }
 
 /// Adds the gradient of the barrier terms.
-pub(super) fn add_gradient(form: &Form<'_>, w: &[f64], mu: f64, gradient: &mut [f64]) {
+pub(super) fn add_gradient(form: &SlackForm<'_>, w: &[f64], mu: f64, gradient: &mut [f64]) {
     for (j, gradient) in gradient.iter_mut().enumerate() {
         let (lower, upper) = (form.lower[j], form.upper[j]);
         // An infinite bound contributes ±0.
@@ -41,12 +41,12 @@ pub(super) fn add_gradient(form: &Form<'_>, w: &[f64], mu: f64, gradient: &mut [
 }
 
 /// The damping's part of the gradient alone.
-pub(super) fn damping(form: &Form<'_>, j: usize, mu: f64) -> f64 {
+pub(super) fn damping(form: &SlackForm<'_>, j: usize, mu: f64) -> f64 {
     mu * PARAMETERS.kappa_d * one_sided(form.lower[j], form.upper[j])
 }
 
 /// Σ = z_l/(w − l) + z_u/(u − w).
-pub(super) fn sigma(form: &Form<'_>, w: &[f64], lower: &[f64], upper: &[f64], sigma: &mut [f64]) {
+pub(super) fn sigma(form: &SlackForm<'_>, w: &[f64], lower: &[f64], upper: &[f64], sigma: &mut [f64]) {
     for (j, sigma) in sigma.iter_mut().enumerate() {
         *sigma = lower[j] / (w[j] - form.lower[j]) + upper[j] / (form.upper[j] - w[j]);
     }
@@ -54,7 +54,7 @@ pub(super) fn sigma(form: &Form<'_>, w: &[f64], lower: &[f64], upper: &[f64], si
 
 /// Steps of the bound multipliers that belong to a step of w.
 pub(super) fn multiplier_steps(
-    form: &Form<'_>,
+    form: &SlackForm<'_>,
     w: &[f64],
     step: &[f64],
     mu: f64,
@@ -74,7 +74,7 @@ pub(super) fn multiplier_steps(
 }
 
 /// The longest step in (0, 1] that keeps the share 1 − τ of every slack.
-pub(super) fn longest_step(form: &Form<'_>, w: &[f64], step: &[f64], tau: f64) -> f64 {
+pub(super) fn longest_step(form: &SlackForm<'_>, w: &[f64], step: &[f64], tau: f64) -> f64 {
     let mut longest: f64 = 1.0;
     for j in 0..w.len() {
         if step[j] < 0.0 {
@@ -87,7 +87,7 @@ pub(super) fn longest_step(form: &Form<'_>, w: &[f64], step: &[f64], tau: f64) -
 }
 
 /// Keeps bound multipliers within κ_Σ of μ/slack, so that Σ stays an approximation of the barrier's Hessian.
-pub(super) fn reset_multipliers(form: &Form<'_>, w: &[f64], mu: f64, lower: &mut [f64], upper: &mut [f64]) {
+pub(super) fn reset_multipliers(form: &SlackForm<'_>, w: &[f64], mu: f64, lower: &mut [f64], upper: &mut [f64]) {
     for j in 0..w.len() {
         if form.lower[j].is_finite() {
             lower[j] = within_ratio(lower[j], mu / (w[j] - form.lower[j]));

@@ -1,13 +1,10 @@
 //! How a run begins: where, with which multipliers, how far from the bounds.
 
-use super::engine::{Best, Direction, Engine};
-use super::filter::Filter;
-use super::form::{Form, Source};
-use super::iterate::Errors;
 use super::kkt::Kkt;
 use super::parameters::PARAMETERS;
-use super::polish;
+use super::slack_form::{SlackForm, Source};
 use super::start;
+use super::state::State;
 use crate::model::EvaluationError;
 
 /// How to begin.
@@ -34,11 +31,11 @@ impl<'s> InitialPoint<'s> {
     }
 }
 
-impl<'a> Engine<'a> {
+impl<'a> State<'a> {
     /// At the start, ready to iterate.
-    pub fn new(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
+    pub fn at_start(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
         let warm = beginning.multipliers.is_some();
-        let mut form = Form::new(model, beginning.x, beginning.magnitudes);
+        let mut form = SlackForm::new(model, beginning.x, beginning.magnitudes);
         form.ease = beginning.ease;
         let push = beginning.push.unwrap_or(if warm { PARAMETERS.kappa_1_warm } else { PARAMETERS.kappa_1 });
         let mu = beginning.mu.unwrap_or(if warm { PARAMETERS.mu_warm } else { PARAMETERS.barrier.mu_0 });
@@ -55,37 +52,6 @@ impl<'a> Engine<'a> {
                 start::least_squares_multipliers(&form, &mut kkt, &mut iterate);
             }
         }
-        let (size, m) = (form.size(), form.rows.len());
-        let violation = iterate.violation().max(1.0);
-        let mut engine = Engine {
-            kkt,
-            filter: Filter::default(),
-            mu,
-            trial: iterate.clone(),
-            best: Best { error: f64::INFINITY, iterate: iterate.clone(), iteration: 0 },
-            iterate,
-            direction: Direction { w: vec![0.0; size], y: vec![0.0; m], z_lower: vec![0.0; size], z_upper: vec![0.0; size] },
-            barrier_gradient: vec![0.0; size],
-            right: vec![0.0; size],
-            hessian: vec![0.0; form.hessian.len()],
-            sigma: vec![0.0; size],
-            smallest_violation: 1e-4 * violation,
-            largest_violation: 1e4 * violation,
-            restoration: None,
-            restorations: 0,
-            step_norm: 0.0,
-            errors: Errors { dual: 0.0, primal: 0.0, complementarity: 0.0 },
-            unguarded: form.is_large(),
-            escapes: 0,
-            watchdog: None,
-            shortened_steps: 0,
-            tiny_steps: 0,
-            iterations: 0,
-            polish_at: if form.is_large() { polish::FIRST_TRIAL } else { 0.0 },
-            form,
-        };
-        engine.filter.reset(engine.largest_violation);
-        engine.assess();
-        Ok(engine)
+        Ok(State::new(form, kkt, mu, iterate))
     }
 }

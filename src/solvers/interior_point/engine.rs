@@ -1,111 +1,70 @@
-//! The primal-dual interior point with a filter line search, one iteration at a time: Wächter & Biegler, "On the
-//! implementation of an interior-point filter line-search algorithm for large-scale nonlinear programming",
-//! Math. Program. 106 (2006), Algorithm A.
+//! One iteration of the primal-dual interior point: Wächter & Biegler, "On the implementation of an interior-point filter
+//! line-search algorithm for large-scale nonlinear programming", Math. Program. 106 (2006), Algorithm A. The strategies
+//! propose; what is done is decided here.
 
-use super::barrier;
-use super::filter::Filter;
-use super::form::Form;
-use super::iterate::{Errors, Iterate};
-use super::kkt::{Blocks, Kkt, Sides};
-use super::line_search::Search;
+use super::begin::InitialPoint;
+use super::ending::Ending;
+use super::globalization::{Globalization, Proposal};
 use super::parameters::PARAMETERS;
-use super::restoration::Restoration;
-use super::vectors::moved;
-use super::watchdog::Watchdog;
-use crate::model::EvaluationError;
-use crate::solvers::barrier::longest_multiplier_step;
+use super::polish::TrialPolish;
+use super::predictor::{Predicted, Predictor};
+use super::restoration::{self, Next, Origin, Restored};
+use super::saddle::Escapes;
+use super::slack_form::Source;
+use super::state::State;
+use crate::model::{EvaluationError, Model};
+use crate::solvers::{Conclusion, Point, Why};
 
-/// Why the iterations ended.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Ending {
-    /// The optimality error is down to rounding.
-    Optimal,
-    /// No more progress, but close.
-    Acceptable,
-    /// A local minimum of the violation, not zero.
-    Infeasible,
-    /// Objective or variables run off.
-    Diverging(String),
-    /// No way on was found.
-    Stuck(String),
-    /// Second derivatives are no numbers at an iterate.
-    Invalid(String),
-}
-
-/// A Newton direction.
-pub(super) struct Direction {
-    pub w: Vec<f64>,
-    pub y: Vec<f64>,
-    pub z_lower: Vec<f64>,
-    pub z_upper: Vec<f64>,
-}
-
-/// The algorithm's whole state.
+/// The state of a run, and the strategies that work on it. Each keeps its own counters.
 pub(super) struct Engine<'a> {
-    pub form: Form<'a>,
-    pub kkt: Kkt,
-    pub filter: Filter,
-    pub mu: f64,
-    pub iterate: Iterate,
-    pub trial: Iterate,
-    pub direction: Direction,
-    /// ∇φ of the current iterate.
-    pub barrier_gradient: Vec<f64>,
-    /// The right-hand side −(∇φ + Aᵀy) of the current system.
-    pub right: Vec<f64>,
-    pub hessian: Vec<f64>,
-    pub sigma: Vec<f64>,
-    /// θ_min and θ_max.
-    pub smallest_violation: f64,
-    pub largest_violation: f64,
-    pub restoration: Option<Box<Restoration<'a>>>,
-    pub restorations: usize,
-    /// Norm of the last step of the variables, scaled.
-    pub step_norm: f64,
-    /// The optimality error of the current iterate.
-    pub errors: Errors,
-    pub best: Best,
-    /// Whether steps are taken without the filter: [`Engine::predictor_corrector`].
-    pub unguarded: bool,
-    /// Saddle points left so far.
-    pub escapes: usize,
-    pub watchdog: Option<Box<Watchdog>>,
-    pub shortened_steps: usize,
-    pub tiny_steps: usize,
-    pub iterations: u64,
-    /// The optimality error at which a large problem is polished next, on trial.
-    pub polish_at: f64,
+    pub state: State<'a>,
+    globalization: Globalization,
+    predictor: Predictor,
+    trial_polish: TrialPolish,
+    escapes: Escapes,
+    restoration: Option<Box<Restoration<'a>>>,
+    /// Restorations so far.
+    restorations: usize,
 }
 
-/// The iterate with the least optimality error.
-pub(super) struct Best {
-    pub error: f64,
-    pub iterate: Iterate,
-    pub iteration: u64,
+/// A restoration under way: the same iterations on the elastic problem.
+struct Restoration<'a> {
+    engine: Engine<'a>,
+    origin: Origin,
 }
 
-impl Engine<'_> {
-    /// τ of the fraction-to-the-boundary rule.
-    pub fn tau(&self) -> f64 {
-        PARAMETERS.barrier.tau(self.mu)
+impl<'a> Engine<'a> {
+    /// At the start, ready to iterate.
+    pub fn new(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
+        let state = State::at_start(model, beginning)?;
+        let is_large = state.form.is_large();
+        Ok(Engine {
+            globalization: Globalization::new(state.iterate.violation()),
+            predictor: Predictor::new(is_large),
+            trial_polish: TrialPolish::new(is_large),
+            escapes: Escapes::default(),
+            restoration: None,
+            restorations: 0,
+            state,
+        })
     }
 
     /// One iteration. `Some`: it was the last.
     pub fn step(&mut self) -> Result<Option<Ending>, EvaluationError> {
-        self.iterations += 1;
-        if self.restoration.is_some() {
-            return self.restoration_step();
+        self.state.iterations += 1;
+        if let Some(restoration) = self.restoration.take() {
+            return self.restoration_step(restoration);
         }
-        match self.ending() {
-            Some(Ending::Optimal | Ending::Acceptable) if self.leave_saddle()? => {}
+        match Ending::called_for(&self.state) {
+            Some(ending) if ending.is_solved() && self.leave_saddle()? => {}
             Some(ending) => return Ok(Some(ending)),
-            None if self.polished_early()? || self.predictor_corrector()? => return Ok(None),
+            None if self.trial_polish.succeeds(&mut self.state)? || self.predicted()? => return Ok(None),
             None => {}
         }
-        if self.watchdog.is_none() {
+        if !self.globalization.is_on_trial() {
             self.decrease_barrier();
         }
-        match self.newton_direction() {
+        match self.state.newton_direction() {
             Ok(true) => {}
             Ok(false) => return self.restore("the KKT matrix has no usable factors"),
             Err(EvaluationError::Invalid { term, cause }) => return Ok(Some(Ending::Invalid(format!("{term}: {cause}")))),
@@ -114,190 +73,174 @@ impl Engine<'_> {
         self.move_along()
     }
 
-    /// The optimality error, and the best iterate so far.
-    pub fn assess(&mut self) {
-        self.errors = self.iterate.errors(&self.form, 0.0, &mut self.right);
-        let error = self.errors.largest();
-        if error < 0.9 * self.best.error {
-            self.best.error = error;
-            self.best.iteration = self.iterations;
-            self.best.iterate.clone_from(&self.iterate);
+    /// Whether a step was taken without the filter.
+    fn predicted(&mut self) -> Result<bool, EvaluationError> {
+        let predicted = self.predictor.step(&mut self.state)?;
+        if predicted == Predicted::HandedOver {
+            self.forget();
         }
+        Ok(predicted == Predicted::Step)
     }
 
-    /// Starts the search for the best iterate and the filter anew.
-    pub fn forget(&mut self) {
-        self.filter.reset(self.largest_violation);
-        self.watchdog = None;
-        self.best.error = f64::INFINITY;
-        self.tiny_steps = 0;
-        self.assess();
+    /// Whether the iterate was a saddle and has been left.
+    fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
+        // Where steps are still taken without the filter the inertia was right at the last of them.
+        let left = !self.predictor.is_in_charge() && self.escapes.leave(&mut self.state)?;
+        if left {
+            self.forget();
+        }
+        Ok(left)
     }
 
-    fn ending(&self) -> Option<Ending> {
-        let idle = self.iterations - self.best.iteration;
-        if self.errors.largest() <= PARAMETERS.epsilon_tol {
-            return Some(Ending::Optimal);
-        }
-        if self.best.error <= PARAMETERS.epsilon_acceptable && idle > PARAMETERS.patience_near {
-            return Some(Ending::Acceptable);
-        }
-        if self.iterate.objective < -PARAMETERS.diverging && self.errors.primal < 1e-6 {
-            let value = self.iterate.objective / self.form.objective_scale;
-            return Some(Ending::Diverging(format!("the objective falls below {value:.1e} and on; it diverges")));
-        }
-        if let Some(j) = (0..self.form.variables()).find(|&j| self.iterate.w[j].abs() > PARAMETERS.diverging) {
-            let name = self.form.model.variable_name(self.form.free[j]);
-            return Some(Ending::Diverging(format!("{name} grows beyond all bounds; the iterates diverge")));
-        }
-        (idle > PARAMETERS.patience_far).then(|| Ending::Stuck(format!("no progress in {} iterations", PARAMETERS.patience_far)))
+    /// The iterate was put elsewhere: the filter and the search for the best iterate begin anew.
+    fn forget(&mut self) {
+        self.globalization.forget();
+        self.state.forget_best();
     }
 
-    /// Lowers μ while the barrier problem is solved well enough: equation (7).
+    /// Lowers μ while the barrier problem is solved well enough: equation (7). Steps below rounding count as well enough once.
     fn decrease_barrier(&mut self) {
-        let forced = self.tiny_steps >= 2;
-        let mut force = forced;
-        while self.mu > PARAMETERS.barrier.mu_last {
-            let error = self.iterate.errors(&self.form, self.mu, &mut self.right).largest();
-            if error > PARAMETERS.barrier.kappa_epsilon * self.mu && !force {
+        let rule = &PARAMETERS.barrier;
+        let mut at_rest = self.globalization.is_at_rest();
+        while self.state.mu > rule.mu_last {
+            let error = self.state.barrier_error();
+            if !rule.is_solved(error, self.state.mu) && !at_rest {
                 break;
             }
-            force = false;
-            self.mu = PARAMETERS.barrier.next(self.mu);
-            self.filter.reset(self.largest_violation);
-            self.tiny_steps = 0;
+            at_rest = false;
+            self.state.mu = rule.next(self.state.mu);
+            self.globalization.for_new_barrier();
         }
     }
 
-    /// W and Σ at the iterate.
-    pub fn second_order(&mut self) -> Result<(), EvaluationError> {
-        let Self { form, iterate, .. } = self;
-        form.hessian(&iterate.w, &iterate.y, &mut self.hessian)?;
-        barrier::sigma(form, &iterate.w, &iterate.z_lower, &iterate.z_upper, &mut self.sigma);
-        Ok(())
-    }
-
-    /// Solves the KKT system at the iterate. `false`: it has no usable factors.
-    fn newton_direction(&mut self) -> Result<bool, EvaluationError> {
-        self.second_order()?;
-        let Self { form, iterate, right, .. } = self;
-        self.barrier_gradient.fill(0.0);
-        self.barrier_gradient[..form.variables()].copy_from_slice(&iterate.gradient);
-        barrier::add_gradient(form, &iterate.w, self.mu, &mut self.barrier_gradient);
-        iterate.lagrangian_gradient(form, right);
-        barrier::add_gradient(form, &iterate.w, self.mu, right);
-        right.iter_mut().for_each(|value| *value = -*value);
-        let blocks = Blocks { hessian: &self.hessian, jacobian: &iterate.jacobian, sigma: &self.sigma };
-        if !self.kkt.factor_corrected(blocks, self.mu).unwrap_or(false) {
-            return Ok(false);
-        }
-        let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();
-        let sides = Sides { w: right, rows: &rows };
-        if self.kkt.solve(sides, &mut self.direction.w, &mut self.direction.y).is_err() {
-            return Ok(false);
-        }
-        Ok(true)
-    }
-
-    /// Line search, then the step; restoration where no length will do.
+    /// Goes where the globalization proposes; restores feasibility where it has nothing to propose.
     fn move_along(&mut self) -> Result<Option<Ending>, EvaluationError> {
         let mut cap: f64 = 1.0;
         loop {
-            let found = match self.watchdog.take() {
-                None => self.line_search(cap)?,
-                Some(watchdog) => match self.full_step_on_trial(watchdog)? {
-                    Some(found) => found,
-                    None => {
-                        self.assess();
-                        return Ok(None);
-                    }
-                },
+            let length = match self.globalization.propose(&mut self.state, cap)? {
+                Proposal::Step(length) => length,
+                Proposal::Back => {
+                    self.state.assess();
+                    return Ok(None);
+                }
+                Proposal::Failed => return self.without_proposal(),
             };
-            let length = match found {
-                Search::Step(length) | Search::Tiny(length) => length,
-                Search::Failed => return self.line_search_failed(),
-            };
-            self.tiny_steps = if matches!(found, Search::Tiny(_)) { self.tiny_steps + 1 } else { 0 };
-            if self.tiny_steps > 2 && self.mu <= PARAMETERS.barrier.mu_last {
-                return Ok(Some(self.end_of_progress("the steps are below rounding")));
+            if self.globalization.stays_at_rest() && self.state.mu <= PARAMETERS.barrier.mu_last {
+                return Ok(Some(Ending::of_progress(&self.state, "the steps are below rounding")));
             }
-            match self.take(length) {
+            match self.state.take(length) {
                 Ok(()) => return Ok(None),
                 // Values exist there, derivatives do not: stay closer.
-                Err(EvaluationError::Invalid { .. }) if length > 1e-12 => cap = 0.5 * length,
-                Err(EvaluationError::Invalid { .. }) => return self.line_search_failed(),
+                Err(EvaluationError::Invalid { .. }) if length > PARAMETERS.shortest_with_derivatives => cap = 0.5 * length,
+                Err(EvaluationError::Invalid { .. }) => return self.without_proposal(),
                 Err(stopped) => return Err(stopped),
             }
         }
-    }
-
-    /// Makes the trial point (w and its values are there already) the iterate, multipliers stepped.
-    fn take(&mut self, length: f64) -> Result<(), EvaluationError> {
-        self.trial.evaluate(&mut self.form)?;
-        self.step_multipliers(length);
-        self.arrive();
-        Ok(())
-    }
-
-    /// Makes the trial point the iterate.
-    pub fn arrive(&mut self) {
-        let n = self.form.variables();
-        let change = |j: usize| (self.trial.w[j] - self.iterate.w[j]) * self.form.variable_scale[j];
-        self.step_norm = (0..n).map(|j| change(j).powi(2)).sum::<f64>().sqrt();
-        std::mem::swap(&mut self.iterate, &mut self.trial);
-        self.assess();
-    }
-
-    /// Sets the trial point's multipliers: y by the primal length, bounds' by their own.
-    fn step_multipliers(&mut self, length: f64) {
-        let Self { form, iterate, trial, direction, mu, .. } = self;
-        let tau = PARAMETERS.barrier.tau(*mu);
-        barrier::multiplier_steps(
-            form,
-            &iterate.w,
-            &direction.w,
-            *mu,
-            (&iterate.z_lower, &iterate.z_upper),
-            (&mut direction.z_lower, &mut direction.z_upper),
-        );
-        let dual = longest_multiplier_step(&iterate.z_lower, &direction.z_lower, tau).min(longest_multiplier_step(
-            &iterate.z_upper,
-            &direction.z_upper,
-            tau,
-        ));
-        moved(&iterate.y, length, &direction.y, &mut trial.y);
-        moved(&iterate.z_lower, dual, &direction.z_lower, &mut trial.z_lower);
-        moved(&iterate.z_upper, dual, &direction.z_upper, &mut trial.z_upper);
-        barrier::reset_multipliers(form, &trial.w, *mu, &mut trial.z_lower, &mut trial.z_upper);
     }
 
     /// A step that lowers the primal-dual error is taken even against the filter (the soft restoration of §3.10 in
     /// spirit: near a solution φ is lost in rounding, the error is not); otherwise feasibility is restored.
-    fn line_search_failed(&mut self) -> Result<Option<Ending>, EvaluationError> {
-        let before = self.iterate.errors(&self.form, self.mu, &mut self.right).largest();
-        let mut length = barrier::longest_step(&self.form, &self.iterate.w, &self.direction.w, self.tau());
-        for _ in 0..3 {
-            moved(&self.iterate.w, length, &self.direction.w, &mut self.trial.w);
-            self.form.keep_inside(&mut self.trial.w);
-            match self.trial.evaluate(&mut self.form) {
-                Ok(()) => {
-                    self.step_multipliers(length);
-                    let after = self.trial.errors(&self.form, self.mu, &mut self.right).largest();
-                    if after < (1.0 - 1e-4) * before {
-                        self.take(length)?;
-                        return Ok(None);
-                    }
+    fn without_proposal(&mut self) -> Result<Option<Ending>, EvaluationError> {
+        let state = &mut self.state;
+        let before = state.barrier_error();
+        let mut length = state.longest_step();
+        for _ in 0..PARAMETERS.restoration.soft_steps {
+            state.move_trial(length);
+            if state.evaluate_trial()? {
+                state.step_multipliers(length);
+                if state.trial_barrier_error() < PARAMETERS.restoration.kappa_soft * before {
+                    state.take(length)?;
+                    return Ok(None);
                 }
-                Err(EvaluationError::Invalid { .. }) => {}
-                Err(stopped) => return Err(stopped),
             }
             length *= 0.5;
         }
         self.restore("the line search found no acceptable step")
     }
 
-    /// The ending where nothing moves any more.
-    pub fn end_of_progress(&self, why: &str) -> Ending {
-        if self.best.error <= PARAMETERS.epsilon_acceptable { Ending::Acceptable } else { Ending::Stuck(why.into()) }
+    /// Begins a restoration, unless this is one itself or there is nothing to restore.
+    fn restore(&mut self, why: &str) -> Result<Option<Ending>, EvaluationError> {
+        let is_restoration = matches!(self.state.form.model, Source::Own(_));
+        self.restorations += usize::from(!is_restoration);
+        if is_restoration
+            || !restoration::is_called_for(&self.state)
+            || self.restorations > PARAMETERS.restoration.most_restorations
+        {
+            return Ok(Some(Ending::of_progress(&self.state, why)));
+        }
+        self.globalization.leave(&self.state);
+        self.begin_restoration(Origin::of(&self.state))
+    }
+
+    fn begin_restoration(&mut self, origin: Origin) -> Result<Option<Ending>, EvaluationError> {
+        let Some((elastic, mu)) = restoration::elastic(&mut self.state, origin.zeta)? else {
+            return Ok(Some(Ending::of_progress(&self.state, "restoration failed")));
+        };
+        let start = elastic.meta().start.clone();
+        let beginning = InitialPoint { mu: Some(mu), push: Some(PARAMETERS.kappa_1_warm), ..InitialPoint::at(&start) };
+        match Engine::new(Source::Own(Box::new(elastic)), beginning) {
+            Ok(engine) => {
+                self.restoration = Some(Box::new(Restoration { engine, origin }));
+                Ok(None)
+            }
+            Err(EvaluationError::Invalid { term, cause }) => Ok(Some(Ending::Invalid(format!("{term}: {cause}")))),
+            Err(stopped) => Err(stopped),
+        }
+    }
+
+    /// One iteration of the restoration, and a look whether its point will do.
+    fn restoration_step(&mut self, mut restoration: Box<Restoration<'a>>) -> Result<Option<Ending>, EvaluationError> {
+        let ending = restoration.engine.step()?;
+        let Self { state, globalization, .. } = self;
+        state.step_norm = restoration.engine.state.step_norm;
+        let inside = restoration::adopt(state, &mut restoration.engine.state)?;
+        let restored = Restored {
+            inside,
+            violation: state.trial.violation(),
+            largest: state.form.scaled_violation(&state.trial.rows),
+            admitted: inside && globalization.admits_trial(state),
+        };
+        let next = restoration::next(restoration.origin, ending.as_ref(), restored);
+        if !matches!(next, Next::Iterate | Next::Failed) {
+            std::mem::swap(&mut state.iterate, &mut state.trial);
+        }
+        match next {
+            Next::Resume { open } => {
+                if open {
+                    globalization.open();
+                }
+                restoration::refresh_multipliers(state);
+                Ok(None)
+            }
+            Next::Iterate => {
+                self.restoration = Some(restoration);
+                Ok(None)
+            }
+            Next::LastWord => self.begin_restoration(Origin::last_word(&self.state)),
+            Next::Infeasible => Ok(Some(Ending::Infeasible)),
+            Next::Failed => Ok(Some(Ending::Stuck("the restoration of feasibility failed".into()))),
+        }
+    }
+
+    /// The run's conclusion and its point.
+    pub fn conclude(&mut self, ending: &Ending) -> (Conclusion, Point) {
+        let state = &mut self.state;
+        let (why, message, invalid) = match ending {
+            Ending::Optimal | Ending::Acceptable => {
+                std::mem::swap(&mut state.iterate, &mut state.best.iterate);
+                state.form.tighten();
+                // A run told to stop keeps the point as it is.
+                let _ = state.polish();
+                (Why::Converged, format!("converged: optimality error {:.1e}", state.errors.largest()), None)
+            }
+            Ending::Infeasible => {
+                let violation = state.form.violation(&state.iterate.rows);
+                (Why::Converged, format!("the violation {violation:.3e} is a local minimum: locally infeasible"), None)
+            }
+            Ending::Diverging(message) => (Why::Converged, message.clone(), None),
+            Ending::Stuck(message) => (Why::Failed, message.clone(), None),
+            Ending::Invalid(term) => (Why::Failed, term.clone(), Some(term.clone())),
+        };
+        (Conclusion { why, message, invalid }, state.point())
     }
 }

@@ -25,7 +25,7 @@ impl Filter {
 
     /// Rejects from now on what does not improve on this point by the margins.
     pub fn add(&mut self, violation: f64, objective: f64) {
-        let entry = ((1.0 - PARAMETERS.gamma_theta) * violation, objective - PARAMETERS.gamma_phi * violation);
+        let entry = ((1.0 - PARAMETERS.filter.gamma_theta) * violation, objective - PARAMETERS.filter.gamma_phi * violation);
         self.entries.retain(|&(v, o)| v < entry.0 || o < entry.1);
         self.entries.push(entry);
     }

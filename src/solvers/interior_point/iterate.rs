@@ -1,8 +1,8 @@
 //! A primal-dual point with everything evaluated there, and how far it is from optimal.
 
 use super::barrier;
-use super::form::Form;
 use super::parameters::PARAMETERS;
+use super::slack_form::SlackForm;
 use super::vectors::{norm_max, norm_sum};
 use crate::model::EvaluationError;
 
@@ -24,7 +24,7 @@ pub(super) struct Iterate {
     pub rows: Vec<f64>,
     /// g(w)
     pub residual: Vec<f64>,
-    /// Along [`Form::jacobian`].
+    /// Along [`SlackForm::jacobian`].
     pub jacobian: Vec<f64>,
 }
 
@@ -45,7 +45,7 @@ impl Errors {
 
 impl Iterate {
     /// Room for a point of this form.
-    pub fn new(form: &Form<'_>) -> Self {
+    pub fn new(form: &SlackForm<'_>) -> Self {
         let (n, size, m) = (form.variables(), form.size(), form.rows.len());
         Iterate {
             w: vec![0.0; size],
@@ -61,7 +61,7 @@ impl Iterate {
     }
 
     /// Values and first derivatives at w.
-    pub fn evaluate(&mut self, form: &mut Form<'_>) -> Result<(), EvaluationError> {
+    pub fn evaluate(&mut self, form: &mut SlackForm<'_>) -> Result<(), EvaluationError> {
         self.objective = form.first_order(&self.w, &mut self.rows, &mut self.gradient, &mut self.jacobian)?;
         form.residual(&self.w, &self.rows, &mut self.residual);
         Ok(())
@@ -73,14 +73,14 @@ impl Iterate {
     }
 
     /// ∇f + Aᵀy over variables and slacks (bound multipliers left out), into `target`.
-    pub fn lagrangian_gradient(&self, form: &Form<'_>, target: &mut [f64]) {
+    pub fn lagrangian_gradient(&self, form: &SlackForm<'_>, target: &mut [f64]) {
         target.fill(0.0);
         target[..form.variables()].copy_from_slice(&self.gradient);
         form.add_transposed(&self.jacobian, &self.y, target);
     }
 
     /// The optimality error for a barrier parameter (0: of the problem itself).
-    pub fn errors(&self, form: &Form<'_>, mu: f64, scratch: &mut [f64]) -> Errors {
+    pub fn errors(&self, form: &SlackForm<'_>, mu: f64, scratch: &mut [f64]) -> Errors {
         self.lagrangian_gradient(form, scratch);
         let mut complementarity: f64 = 0.0;
         let mut bounds = 0;

@@ -4,27 +4,32 @@
 //! | file | subject |
 //! |---|---|
 //! | `parameters` | every number that is a choice, by the paper's symbols |
-//! | `form`, `scaling` | the problem with slacks, without fixed variables, scaled |
-//! | `engine` | one iteration |
-//! | `iterate` | a primal-dual point and its optimality error |
-//! | `begin`, `start` | the first iterate |
+//! | `slack_form`, `scaling` | the problem with slacks, without fixed variables, scaled |
 //! | `barrier` | the logarithmic barrier |
+//! | `iterate` | a primal-dual point and its optimality error |
 //! | `kkt` | the Newton system and its inertia |
+//! | `state` | the point, the direction, the matrix: the algebra of a run, which decides nothing |
+//! | `begin`, `start` | the first state |
+//! | `filter`, `acceptance` | which trial points are taken |
+//! | `line_search`, `watchdog` | the points that are tried: ever shorter steps; full ones where too many were cut short |
+//! | `globalization` | proposes the next point, by one of these two |
 //! | `predictor` | steps of large problems without a line search, while they do well |
-//! | `line_search`, `filter` | which steps are taken |
 //! | `restoration`, `elastic` | the way back to feasibility, or to the least violation |
-//! | `watchdog` | full steps on trial where the filter cuts too many short |
 //! | `saddle` | leaving stationary points that are no minima |
 //! | `polish` | the last digits, on the active set |
+//! | `ending` | when it is over, and why |
+//! | `engine` | one iteration: decides which of the above it is, and what becomes of a proposal |
 //! | `attempts` | a second run in better scales, or from elsewhere |
 
+mod acceptance;
 mod attempts;
 mod barrier;
 mod begin;
 mod elastic;
+mod ending;
 mod engine;
 mod filter;
-mod form;
+mod globalization;
 mod iterate;
 mod kkt;
 mod line_search;
@@ -34,16 +39,18 @@ mod predictor;
 mod restoration;
 mod saddle;
 mod scaling;
+mod slack_form;
 mod start;
+mod state;
 mod vectors;
 mod watchdog;
 
-use super::{Conclusion, Point, Progress, Solver, Why};
+use super::{Conclusion, Point, Progress, Solver};
 use crate::model::Evaluator;
 use attempts::Attempts;
 use begin::InitialPoint;
-use engine::{Ending, Engine};
-use form::Source;
+use engine::Engine;
+use slack_form::Source;
 
 /// A primal-dual interior point with a filter line search.
 pub struct InteriorPoint<'a> {
@@ -69,7 +76,7 @@ impl Solver for InteriorPoint<'_> {
     fn begin(&mut self) -> Progress {
         let beginning = InitialPoint { multipliers: self.multipliers.as_deref(), ..InitialPoint::at(&self.start) };
         match Engine::new(Source::Given(self.model), beginning) {
-            Ok(engine) => Progress::at(self.engine.insert(engine).point(), 0.0, self.model.evaluations()),
+            Ok(engine) => Progress::at(self.engine.insert(engine).state.point(), 0.0, self.model.evaluations()),
             Err(error) => Progress::failed(&error),
         }
     }
@@ -77,12 +84,12 @@ impl Solver for InteriorPoint<'_> {
     fn step(&mut self, _is_last: bool) -> Progress {
         let Some(engine) = &mut self.engine else { return self.begin() };
         let ending = match engine.step() {
-            Ok(None) => return Progress::at(engine.point(), engine.step_norm, self.model.evaluations()),
+            Ok(None) => return Progress::at(engine.state.point(), engine.state.step_norm, self.model.evaluations()),
             Ok(Some(ending)) => ending,
             Err(error) => return Progress::failed(&error),
         };
         let (conclusion, point) = engine.conclude(&ending);
-        let progress = Progress::at(point.clone(), engine.step_norm, self.model.evaluations());
+        let progress = Progress::at(point.clone(), engine.state.step_norm, self.model.evaluations());
         match self.attempts.next(self.model, &self.start, engine, (ending, conclusion, point)) {
             Ok(Some(next)) => {
                 *engine = next;
@@ -106,41 +113,5 @@ pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point>
         }
     };
     let (_, point) = engine.conclude(&ending);
-    matches!(ending, Ending::Optimal | Ending::Acceptable).then_some(point)
-}
-
-impl Engine<'_> {
-    /// The current iterate as the user knows it.
-    fn point(&mut self) -> Point {
-        let x = self.form.x(&self.iterate.w).to_vec();
-        Point {
-            x,
-            objective: self.iterate.objective / self.form.objective_scale,
-            relative_violation: self.form.scaled_violation(&self.iterate.rows),
-            feasibility: self.form.violation(&self.iterate.rows),
-            optimality: self.errors.largest(),
-            multipliers: Some(self.form.multipliers(&self.iterate.y)),
-        }
-    }
-
-    /// The run's conclusion and its point.
-    fn conclude(&mut self, ending: &Ending) -> (Conclusion, Point) {
-        let (why, message, invalid) = match ending {
-            Ending::Optimal | Ending::Acceptable => {
-                std::mem::swap(&mut self.iterate, &mut self.best.iterate);
-                self.form.tighten();
-                // A run told to stop keeps the point as it is.
-                let _ = self.polish();
-                (Why::Converged, format!("converged: optimality error {:.1e}", self.errors.largest()), None)
-            }
-            Ending::Infeasible => {
-                let violation = self.form.violation(&self.iterate.rows);
-                (Why::Converged, format!("the violation {violation:.3e} is a local minimum: locally infeasible"), None)
-            }
-            Ending::Diverging(message) => (Why::Converged, message.clone(), None),
-            Ending::Stuck(message) => (Why::Failed, message.clone(), None),
-            Ending::Invalid(term) => (Why::Failed, term.clone(), Some(term.clone())),
-        };
-        (Conclusion { why, message, invalid }, self.point())
-    }
+    ending.is_solved().then_some(point)
 }

@@ -6,18 +6,13 @@
 //! optimality error falls. Once that ends, the filter takes over for good, from the best iterate.
 
 use super::barrier;
-use super::engine::Engine;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Sides};
 use super::parameters::PARAMETERS;
+use super::state::{State, Workspace};
 use super::vectors::{dot, moved};
 use crate::model::EvaluationError;
 use crate::solvers::barrier::longest_multiplier_step;
-
-/// Iterations without a better optimality error after which the filter takes over.
-const PATIENCE: u64 = 8;
-/// Shares of the correction that are tried.
-const SHARES: usize = 5;
 
 /// A direction.
 struct Step {
@@ -34,28 +29,56 @@ struct Lengths {
     dual: f64,
 }
 
-impl Engine<'_> {
-    /// Takes a step. `false`: there is none, and the filter has taken over.
-    pub(super) fn predictor_corrector(&mut self) -> Result<bool, EvaluationError> {
-        if !self.unguarded {
-            return Ok(false);
+/// What became of an iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Predicted {
+    /// A step was taken.
+    Step,
+    /// The last step was the last: the state is back at the best iterate, and the filter takes over for good.
+    HandedOver,
+    /// The filter is in charge.
+    Nothing,
+}
+
+/// Whether steps are taken without the filter.
+pub(super) struct Predictor {
+    in_charge: bool,
+}
+
+impl Predictor {
+    /// For a large problem, or not for any.
+    pub fn new(is_large: bool) -> Self {
+        Predictor { in_charge: is_large }
+    }
+
+    /// Whether steps are taken without the filter.
+    pub fn is_in_charge(&self) -> bool {
+        self.in_charge
+    }
+
+    /// Takes a step while these do well.
+    pub fn step(&mut self, state: &mut State<'_>) -> Result<Predicted, EvaluationError> {
+        if !self.in_charge {
+            return Ok(Predicted::Nothing);
         }
-        let patient = self.iterations - self.best.iteration <= PATIENCE;
-        match if patient { self.step_unguarded() } else { Ok(false) } {
-            Ok(true) => return Ok(true),
+        let patient = state.idle_iterations() <= PARAMETERS.predictor.patience;
+        match if patient { state.step_unguarded() } else { Ok(false) } {
+            Ok(true) => return Ok(Predicted::Step),
             Ok(false) | Err(EvaluationError::Invalid { .. }) => {}
             Err(stopped) => return Err(stopped),
         }
-        self.unguarded = false;
-        self.iterate.clone_from(&self.best.iterate);
-        self.mu = self.mean_product(None).clamp(PARAMETERS.barrier.mu_last, PARAMETERS.barrier.mu_0);
-        self.forget();
-        Ok(false)
+        self.in_charge = false;
+        state.iterate.clone_from(&state.best.iterate);
+        state.mu = state.mean_product(None).clamp(PARAMETERS.barrier.mu_last, PARAMETERS.barrier.mu_0);
+        Ok(Predicted::HandedOver)
     }
+}
 
+impl State<'_> {
+    /// One step without a line search. `false`: there is none.
     fn step_unguarded(&mut self) -> Result<bool, EvaluationError> {
         self.second_order()?;
-        let blocks = Blocks { hessian: &self.hessian, jacobian: &self.iterate.jacobian, sigma: &self.sigma };
+        let blocks = Blocks { hessian: &self.work.hessian, jacobian: &self.iterate.jacobian, sigma: &self.work.sigma };
         if !self.kkt.factor_uncorrected(blocks) {
             return Ok(false);
         }
@@ -79,9 +102,9 @@ impl Engine<'_> {
         let (now, then) = (self.mean_product(None), self.mean_product(Some((&predictor, reach))));
         self.mu = PARAMETERS.barrier.mu_last.max(now * (then / now).powi(3));
         let corrector = self.corrector(&predictor)?;
-        let least = reach.primal * reach.dual;
-        let steps = (0..SHARES).map(|k| {
-            let share = least + (1.0 - least) * k as f64 / (SHARES - 1) as f64;
+        let (least, shares) = (reach.primal * reach.dual, PARAMETERS.predictor.shares);
+        let steps = (0..shares).map(|k| {
+            let share = least + (1.0 - least) * k as f64 / (shares - 1) as f64;
             let step = predictor.plus(share, &corrector);
             let lengths = self.lengths(&step, self.tau());
             (step, lengths)
@@ -91,7 +114,7 @@ impl Engine<'_> {
 
     /// Newton's step for the problem without barrier.
     fn predictor(&mut self) -> Option<Step> {
-        let Self { form, iterate, right, kkt, .. } = self;
+        let Self { form, iterate, work: Workspace { right, .. }, kkt, .. } = self;
         iterate.lagrangian_gradient(form, right);
         right.iter_mut().for_each(|value| *value = -*value);
         let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();
@@ -105,7 +128,7 @@ impl Engine<'_> {
 
     /// What is to be added for every product slack·multiplier to become μ, those of the predictor's steps included.
     fn corrector(&mut self, predictor: &Step) -> Option<Step> {
-        let Self { form, iterate, right, kkt, mu, .. } = self;
+        let Self { form, iterate, work: Workspace { right, .. }, kkt, mu, .. } = self;
         let target = |slack: f64, product: f64| if slack.is_finite() { (*mu - product) / slack } else { 0.0 };
         let mut step = Step::zero(right.len(), iterate.y.len());
         for (j, &w) in iterate.w.iter().enumerate() {
@@ -151,7 +174,7 @@ impl Engine<'_> {
 
     /// The length in [0, 1] along `step` of the row multipliers that leaves the trial point least dual infeasible, in the 2-norm.
     fn length_of_multipliers(&mut self, step: &[f64]) -> f64 {
-        let Self { form, iterate, trial, right, .. } = self;
+        let Self { form, iterate, trial, work: Workspace { right, .. }, .. } = self;
         trial.y.copy_from_slice(&iterate.y);
         trial.lagrangian_gradient(form, right);
         for (j, right) in right.iter_mut().enumerate() {

@@ -1,130 +1,152 @@
-//! The feasibility restoration: Wächter & Biegler (2006), §3.3. The same engine minimises the violation until the
-//! filter accepts a point again, or a local minimum of the violation shows that there is none nearby.
+//! The feasibility restoration: Wächter & Biegler (2006), §3.3. The violation is minimised (by the same iterations, on the
+//! elastic problem) until the filter accepts a point again, or a local minimum of the violation shows that there is none nearby.
 
-use super::begin::InitialPoint;
 use super::elastic::Elastic;
-use super::engine::{Ending, Engine};
-use super::form::Source;
+use super::ending::Ending;
 use super::parameters::PARAMETERS;
+use super::slack_form::Source;
 use super::start;
+use super::state::State;
 use super::vectors::norm_max;
-use crate::model::{EvaluationError, Model};
+use crate::model::EvaluationError;
 
-/// Violations (scaled) below this cannot be told from rounding: no verdict of infeasibility.
-const SMALLEST_VIOLATION: f64 = 1e-9;
-/// ζ = this·√μ, and the ζ of the last word on infeasibility.
-const PROXIMITY: f64 = 1e-3;
-const LAST_PROXIMITY: f64 = 1e-9;
-
-/// A restoration under way.
-pub(super) struct Restoration<'a> {
-    engine: Engine<'a>,
-    /// θ when it began.
-    violation: f64,
-    /// Whether the proximity term is gone but for a trace.
-    last_word: bool,
+/// What a restoration began from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Origin {
+    /// θ there.
+    pub violation: f64,
+    /// ζ, the weight of the distance from there.
+    pub zeta: f64,
 }
 
-impl<'a> Engine<'a> {
-    /// Begins a restoration, unless this is one itself or there is nothing to restore.
-    pub(super) fn restore(&mut self, why: &str) -> Result<Option<Ending>, EvaluationError> {
-        let violation = self.iterate.violation();
-        let nothing_to_restore = norm_max(&self.iterate.residual) <= SMALLEST_VIOLATION;
-        let Source::Given(_) = self.form.model else { return Ok(Some(self.end_of_progress(why))) };
-        self.restorations += 1;
-        if nothing_to_restore || self.restorations > PARAMETERS.most_restorations {
-            return Ok(Some(self.end_of_progress(why)));
-        }
-        self.watchdog = None;
-        self.shortened_steps = 0;
-        let here = self.current_measure();
-        self.filter.add(here.violation, here.objective);
-        let zeta = PROXIMITY * self.mu.sqrt();
-        self.begin_restoration(zeta, violation)
+impl Origin {
+    /// A first restoration from the iterate.
+    pub fn of(state: &State<'_>) -> Self {
+        Origin { violation: state.iterate.violation(), zeta: PARAMETERS.restoration.proximity * state.mu.sqrt() }
     }
 
-    fn begin_restoration(&mut self, zeta: f64, violation: f64) -> Result<Option<Ending>, EvaluationError> {
-        let Source::Given(model) = self.form.model else { return Ok(Some(self.end_of_progress("restoration failed"))) };
-        let x = self.form.x(&self.iterate.w).to_vec();
-        let rows: Vec<(usize, f64)> = self.form.rows.iter().copied().zip(self.form.row_scale.iter().copied()).collect();
-        let mu = self.mu.max(norm_max(&self.iterate.residual).min(1e3));
-        let elastic = Elastic::new(model, &x, rows, zeta, mu)?;
-        let start = elastic.meta().start.clone();
-        let beginning = InitialPoint { mu: Some(mu), push: Some(PARAMETERS.kappa_1_warm), ..InitialPoint::at(&start) };
-        match Engine::new(Source::Own(Box::new(elastic)), beginning) {
-            Ok(engine) => {
-                let last_word = zeta <= LAST_PROXIMITY;
-                self.restoration = Some(Box::new(Restoration { engine, violation, last_word }));
-                Ok(None)
-            }
-            Err(EvaluationError::Invalid { term, cause }) => Ok(Some(Ending::Invalid(format!("{term}: {cause}")))),
-            Err(stopped) => Err(stopped),
-        }
+    /// A last one, the distance no longer counting but for a trace.
+    pub fn last_word(state: &State<'_>) -> Self {
+        Origin { violation: state.iterate.violation(), zeta: PARAMETERS.restoration.last_proximity }
     }
 
-    /// One iteration of the restoration, and a look whether its point will do.
-    pub(super) fn restoration_step(&mut self) -> Result<Option<Ending>, EvaluationError> {
-        let Some(mut restoration) = self.restoration.take() else { return Ok(None) };
-        let ending = restoration.engine.step()?;
-        self.step_norm = restoration.engine.step_norm;
-        let inside = self.adopt(&mut restoration)?;
-        let violation = self.trial.violation();
-        let accepted = inside && violation <= PARAMETERS.kappa_resto * restoration.violation && {
-            let measure = self.measure(&self.trial.w, self.trial.objective, &self.trial.residual);
-            self.filter.accepts(measure.violation, measure.objective)
-        };
-        match ending {
-            _ if accepted => self.resume(),
-            None => {
-                self.restoration = Some(restoration);
-                Ok(None)
-            }
-            Some(Ending::Optimal | Ending::Acceptable) if inside => self.end_restoration(&restoration),
-            Some(_) if inside && violation < PARAMETERS.kappa_resto * restoration.violation => {
-                self.filter.reset(self.largest_violation);
-                self.resume()
-            }
-            Some(_) => Ok(Some(Ending::Stuck("the restoration of feasibility failed".into()))),
-        }
+    fn is_last_word(&self) -> bool {
+        self.zeta <= PARAMETERS.restoration.last_proximity
+    }
+}
+
+/// Whether the iterate's violation is more than rounding.
+pub(super) fn is_called_for(state: &State<'_>) -> bool {
+    norm_max(&state.iterate.residual) > PARAMETERS.restoration.smallest_violation
+}
+
+/// The elastic problem at the iterate with its first barrier parameter; `None` where the run is a restoration itself.
+pub(super) fn elastic<'a>(state: &mut State<'a>, zeta: f64) -> Result<Option<(Elastic<'a>, f64)>, EvaluationError> {
+    let Source::Given(model) = state.form.model else { return Ok(None) };
+    let x = state.form.x(&state.iterate.w).to_vec();
+    let rows: Vec<(usize, f64)> = state.form.rows.iter().copied().zip(state.form.row_scale.iter().copied()).collect();
+    let mu = state.mu.max(norm_max(&state.iterate.residual).min(PARAMETERS.restoration.largest_mu));
+    Ok(Some((Elastic::new(model, &x, rows, zeta, mu)?, mu)))
+}
+
+/// Puts the trial point at the restoration's x, slacks at the rows' values. `false`: outside the domain.
+pub(super) fn adopt(state: &mut State<'_>, restored: &mut State<'_>) -> Result<bool, EvaluationError> {
+    let x = restored.form.x(&restored.iterate.w);
+    for (at, &j) in state.form.free.iter().enumerate() {
+        state.trial.w[at] = x[j] / state.form.variable_scale[at];
+    }
+    let push = state.mu.clamp(PARAMETERS.kappa_1_warm * 1e-4, PARAMETERS.kappa_1);
+    state.form.keep_inside(&mut state.trial.w);
+    let inside = state.evaluate_trial()?;
+    if inside {
+        start::place_slacks(&state.form, &mut state.trial, push);
+    }
+    Ok(inside)
+}
+
+/// What is to be done after an iteration of the restoration.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Next {
+    /// Go on with the original problem from the trial point; `open`: with an empty filter.
+    Resume { open: bool },
+    /// Another iteration.
+    Iterate,
+    /// The violation is at a local minimum: once more without a pull towards the origin.
+    LastWord,
+    /// The violation is at a local minimum, and that was the last word.
+    Infeasible,
+    /// Neither minimised nor made acceptable.
+    Failed,
+}
+
+/// How the trial point (a restoration's, evaluated in the original problem) looks from there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Restored {
+    /// Whether it is in the domain.
+    pub inside: bool,
+    /// θ
+    pub violation: f64,
+    /// The largest violation of a row, relative to its limit where that is large.
+    pub largest: f64,
+    /// Whether the filter lets it in.
+    pub admitted: bool,
+}
+
+/// Decides after an iteration that came to `ending`.
+pub(super) fn next(origin: Origin, ending: Option<&Ending>, trial: Restored) -> Next {
+    let enough = PARAMETERS.restoration.kappa_resto * origin.violation;
+    match ending {
+        _ if trial.inside && trial.violation <= enough && trial.admitted => Next::Resume { open: false },
+        None => Next::Iterate,
+        Some(Ending::Optimal | Ending::Acceptable) if trial.inside => match trial.largest {
+            largest if largest <= PARAMETERS.restoration.smallest_violation => Next::Resume { open: true },
+            _ if origin.is_last_word() => Next::Infeasible,
+            _ => Next::LastWord,
+        },
+        Some(_) if trial.inside && trial.violation < enough => Next::Resume { open: true },
+        Some(_) => Next::Failed,
+    }
+}
+
+/// Fresh multipliers at the iterate.
+pub(super) fn refresh_multipliers(state: &mut State<'_>) {
+    let largest = PARAMETERS.restoration.largest_multiplier;
+    start::central_bound_multipliers(&state.form, &mut state.iterate, state.mu, largest);
+    start::least_squares_multipliers(&state.form, &mut state.kkt, &mut state.iterate);
+    state.assess();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ORIGIN: Origin = Origin { violation: 1.0, zeta: 1e-3 };
+    const BETTER: Restored = Restored { inside: true, violation: 0.5, largest: 0.5, admitted: true };
+
+    #[test]
+    fn the_iterations_go_on_where_the_filter_accepts_a_point_that_is_less_infeasible() {
+        assert_eq!(next(ORIGIN, None, BETTER), Next::Resume { open: false });
+        assert_eq!(next(ORIGIN, None, Restored { admitted: false, ..BETTER }), Next::Iterate);
+        assert_eq!(next(ORIGIN, None, Restored { violation: 0.95, ..BETTER }), Next::Iterate);
+        assert_eq!(next(ORIGIN, None, Restored { inside: false, ..BETTER }), Next::Iterate);
     }
 
-    /// Puts the trial point at the restoration's x, slacks at the rows' values. `false`: outside the domain.
-    fn adopt(&mut self, restoration: &mut Restoration<'a>) -> Result<bool, EvaluationError> {
-        let inner = &mut restoration.engine;
-        let x = inner.form.x(&inner.iterate.w);
-        for (at, &j) in self.form.free.iter().enumerate() {
-            self.trial.w[at] = x[j] / self.form.variable_scale[at];
-        }
-        let push = self.mu.clamp(PARAMETERS.kappa_1_warm * 1e-4, PARAMETERS.kappa_1);
-        self.form.keep_inside(&mut self.trial.w);
-        match self.trial.evaluate(&mut self.form) {
-            Ok(()) => start::place_slacks(&self.form, &mut self.trial, push),
-            Err(EvaluationError::Invalid { .. }) => return Ok(false),
-            Err(stopped) => return Err(stopped),
-        }
-        Ok(true)
+    #[test]
+    fn a_local_minimum_of_the_violation_is_infeasible_only_when_the_origin_no_longer_pulls() {
+        let stuck = Restored { admitted: false, violation: 1.0, ..BETTER };
+        assert_eq!(next(ORIGIN, Some(&Ending::Optimal), stuck), Next::LastWord);
+        let last = Origin { zeta: PARAMETERS.restoration.last_proximity, ..ORIGIN };
+        assert_eq!(next(last, Some(&Ending::Optimal), stuck), Next::Infeasible);
+        let feasible = Restored { largest: 0.0, ..stuck };
+        assert_eq!(next(last, Some(&Ending::Optimal), feasible), Next::Resume { open: true });
     }
 
-    /// The restoration converged at the trial point without the filter's consent.
-    fn end_restoration(&mut self, restoration: &Restoration<'a>) -> Result<Option<Ending>, EvaluationError> {
-        if self.form.scaled_violation(&self.trial.rows) <= SMALLEST_VIOLATION {
-            self.filter.reset(self.largest_violation);
-            return self.resume();
-        }
-        std::mem::swap(&mut self.iterate, &mut self.trial);
-        if restoration.last_word {
-            return Ok(Some(Ending::Infeasible));
-        }
-        let violation = self.iterate.violation();
-        self.begin_restoration(LAST_PROXIMITY, violation)
-    }
-
-    /// Goes on from the trial point with fresh multipliers.
-    fn resume(&mut self) -> Result<Option<Ending>, EvaluationError> {
-        std::mem::swap(&mut self.iterate, &mut self.trial);
-        start::central_bound_multipliers(&self.form, &mut self.iterate, self.mu, PARAMETERS.largest_restored_multiplier);
-        start::least_squares_multipliers(&self.form, &mut self.kkt, &mut self.iterate);
-        self.assess();
-        Ok(None)
+    #[test]
+    fn a_restoration_that_gets_stuck_is_worth_something_only_if_it_lowered_the_violation() {
+        let stuck = Ending::Stuck(String::new());
+        let rejected = Restored { admitted: false, ..BETTER };
+        assert_eq!(next(ORIGIN, Some(&stuck), rejected), Next::Resume { open: true });
+        assert_eq!(next(ORIGIN, Some(&stuck), Restored { violation: 2.0, ..rejected }), Next::Failed);
+        assert_eq!(next(ORIGIN, Some(&stuck), Restored { inside: false, ..rejected }), Next::Failed);
     }
 }

@@ -2,33 +2,33 @@
 //! starts on one, or on the symmetry plane of one; the inertia tells.
 
 use super::barrier;
-use super::engine::Engine;
-use super::form::Form;
 use super::kkt::{Blocks, Kkt, Sides};
 use super::parameters::PARAMETERS;
+use super::slack_form::SlackForm;
 use super::start;
+use super::state::{State, Workspace};
 use super::vectors::{moved, norm_max};
 use crate::model::EvaluationError;
 
-/// Times a run may leave a saddle.
-const MOST_ESCAPES: usize = 4;
-/// Curvature above −this, relative, is rounding.
-const CURVATURE: f64 = 1e-8;
-/// Inverse iterations towards the direction of least curvature.
-const INVERSE_ITERATIONS: usize = 6;
-/// How far the escape goes, relative to the variables.
-const DISTANCE: f64 = 1e-2;
-/// The barrier parameter to go on with.
-const BARRIER: f64 = 1e-3;
+/// Saddle points left so far.
+#[derive(Debug, Default)]
+pub(super) struct Escapes {
+    tried: usize,
+}
 
-impl Engine<'_> {
+impl Escapes {
     /// Where the iterate is stationary but curved downwards, moves along that curvature and returns `true`.
-    pub(super) fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
-        // Where steps are still unguarded the inertia was right at the last of them.
-        if self.escapes >= MOST_ESCAPES || self.form.variables() == 0 || self.unguarded {
+    pub fn leave(&mut self, state: &mut State<'_>) -> Result<bool, EvaluationError> {
+        if self.tried >= PARAMETERS.saddle.most_escapes || state.form.variables() == 0 {
             return Ok(false);
         }
-        self.escapes += 1;
+        self.tried += 1;
+        state.leave_saddle()
+    }
+}
+
+impl State<'_> {
+    fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
         let Some(direction) = self.downward_curvature()? else { return Ok(false) };
         let longest = self.escape_length(&direction);
         let from = self.iterate.objective;
@@ -42,7 +42,8 @@ impl Engine<'_> {
                 Err(stopped) => return Err(stopped),
             }
         }
-        let Some((_, length)) = lowest.filter(|(objective, _)| *objective <= from + from.abs() * 1e-12) else { return Ok(false) };
+        let rounding = PARAMETERS.saddle.rounding * from.abs();
+        let Some((_, length)) = lowest.filter(|(objective, _)| *objective <= from + rounding) else { return Ok(false) };
         moved(&self.iterate.w, length, &direction, &mut self.trial.w);
         self.go_on_from_trial()
     }
@@ -54,12 +55,12 @@ impl Engine<'_> {
     }
 
     fn escape_length(&self, direction: &[f64]) -> f64 {
-        DISTANCE * (1.0 + norm_max(&self.iterate.w[..self.form.variables()])) / norm_max(direction)
+        PARAMETERS.saddle.distance * (1.0 + norm_max(&self.iterate.w[..self.form.variables()])) / norm_max(direction)
     }
 
     /// A direction of negative curvature of the barrier's Lagrangian, tangent to the rows; `None` where there is none.
     fn downward_curvature(&mut self) -> Result<Option<Vec<f64>>, EvaluationError> {
-        let Self { form, iterate, hessian, sigma, kkt, .. } = self;
+        let Self { form, iterate, work: Workspace { hessian, sigma, .. }, kkt, .. } = self;
         match form.hessian(&iterate.w, &iterate.y, hessian) {
             Err(EvaluationError::Invalid { .. }) => return Ok(None),
             other => other?,
@@ -74,36 +75,34 @@ impl Engine<'_> {
             return Ok(None);
         }
         let Some(direction) = inverse_iteration(kkt, form) else { return Ok(None) };
-        let significant = -CURVATURE * norm_max(hessian).max(f64::MIN_POSITIVE);
+        let significant = -PARAMETERS.saddle.curvature * norm_max(hessian).max(f64::MIN_POSITIVE);
         Ok((curvature(form, hessian, sigma, &direction) < significant).then_some(direction))
     }
 
     /// Makes the trial point the iterate, with a larger barrier parameter and fresh multipliers.
     fn go_on_from_trial(&mut self) -> Result<bool, EvaluationError> {
-        match self.trial.evaluate(&mut self.form) {
-            Ok(()) => {}
-            Err(EvaluationError::Invalid { .. }) => return Ok(false),
-            Err(stopped) => return Err(stopped),
+        if !self.evaluate_trial()? {
+            return Ok(false);
         }
         std::mem::swap(&mut self.iterate, &mut self.trial);
-        self.mu = BARRIER;
-        start::place_slacks(&self.form, &mut self.iterate, BARRIER);
-        start::central_bound_multipliers(&self.form, &mut self.iterate, BARRIER, 1.0 / BARRIER);
+        let mu = PARAMETERS.saddle.mu;
+        self.mu = mu;
+        start::place_slacks(&self.form, &mut self.iterate, mu);
+        start::central_bound_multipliers(&self.form, &mut self.iterate, mu, 1.0 / mu);
         start::least_squares_multipliers(&self.form, &mut self.kkt, &mut self.iterate);
-        self.forget();
         Ok(true)
     }
 }
 
 /// The direction of least curvature in the KKT matrix factorised last, tangent to the rows, its largest component 1.
-fn inverse_iteration(kkt: &mut Kkt, form: &Form<'_>) -> Option<Vec<f64>> {
+fn inverse_iteration(kkt: &mut Kkt, form: &SlackForm<'_>) -> Option<Vec<f64>> {
     let rows = vec![0.0; form.rows.len()];
     let (mut right, mut step, mut y) = (vec![0.0; form.size()], vec![0.0; form.size()], rows.clone());
     for (j, right) in right.iter_mut().take(form.variables()).enumerate() {
         // Any fixed vector without a symmetry will do.
         *right = 1.0 + ((j as f64 + 1.0) * 0.618_033_988_75).fract();
     }
-    for _ in 0..INVERSE_ITERATIONS {
+    for _ in 0..PARAMETERS.saddle.inverse_iterations {
         kkt.solve(Sides { w: &right, rows: &rows }, &mut step, &mut y).ok()?;
         let size = norm_max(&step);
         if size == 0.0 {
@@ -116,7 +115,7 @@ fn inverse_iteration(kkt: &mut Kkt, form: &Form<'_>) -> Option<Vec<f64>> {
 }
 
 /// dᵀ(W + Σ)d
-fn curvature(form: &Form<'_>, hessian: &[f64], sigma: &[f64], direction: &[f64]) -> f64 {
+fn curvature(form: &SlackForm<'_>, hessian: &[f64], sigma: &[f64], direction: &[f64]) -> f64 {
     let of_bounds: f64 = sigma.iter().zip(direction).map(|(sigma, d)| sigma * d * d).sum();
     let of_hessian = form.hessian.iter().zip(hessian).map(|((row, column), value)| {
         let times = if row == column { 1.0 } else { 2.0 };

@@ -2,21 +2,18 @@
 //!
 //! Wächter & Biegler (2006), §3.6, plus a search for the domain where the start is outside of it.
 
-use super::form::Form;
 use super::iterate::Iterate;
 use super::kkt::{Blocks, Kkt, Sides};
 use super::parameters::PARAMETERS;
 use super::scaling;
+use super::slack_form::SlackForm;
 use super::vectors::norm_max;
 use crate::model::domain::middle;
 use crate::model::{EvaluationError, Meta};
 use crate::solvers::barrier::pushed;
 
-/// Shares of the way from the start towards the middle of the bounds, tried in this order.
-const TOWARDS_MIDDLE: [f64; 7] = [1e-6, 1e-3, 1e-2, 0.1, 0.25, 0.5, 1.0];
-
 /// Puts the variables at `start` (the model's x) and evaluates; slacks follow, scales are chosen.
-pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
+pub(super) fn place(form: &mut SlackForm<'_>, start: &[f64], push: f64, slack_push: f64) -> Result<Iterate, EvaluationError> {
     let mut iterate = Iterate::new(form);
     for (at, &j) in form.free.iter().enumerate() {
         iterate.w[at] = pushed(start[j] / form.variable_scale[at], form.lower[at], form.upper[at], push);
@@ -34,7 +31,7 @@ pub(super) fn place(form: &mut Form<'_>, start: &[f64], push: f64, slack_push: f
 }
 
 /// Slacks at the rows' values, pushed inside their limits.
-pub(super) fn place_slacks(form: &Form<'_>, iterate: &mut Iterate, push: f64) {
+pub(super) fn place_slacks(form: &SlackForm<'_>, iterate: &mut Iterate, push: f64) {
     for (i, slack) in form.slack.iter().enumerate() {
         if let Some(slack) = *slack {
             iterate.w[slack] = pushed(iterate.rows[i], form.lower[slack], form.upper[slack], push);
@@ -45,13 +42,13 @@ pub(super) fn place_slacks(form: &Form<'_>, iterate: &mut Iterate, push: f64) {
 
 /// Evaluates, moving towards the middle of the bounds while a term is outside its domain. The first error is the one
 /// that is told.
-fn evaluate_in_domain(form: &mut Form<'_>, iterate: &mut Iterate) -> Result<(), EvaluationError> {
+fn evaluate_in_domain(form: &mut SlackForm<'_>, iterate: &mut Iterate) -> Result<(), EvaluationError> {
     let first = match iterate.evaluate(form) {
         Err(error @ EvaluationError::Invalid { .. }) => error,
         other => return other,
     };
     let start = iterate.w.clone();
-    for share in TOWARDS_MIDDLE {
+    for share in PARAMETERS.towards_middle {
         for (j, &from) in start.iter().enumerate().take(form.variables()) {
             iterate.w[j] = from + share * (middle(from, form.lower[j], form.upper[j], j) - from);
         }
@@ -70,7 +67,7 @@ pub(super) fn towards_middle(meta: &Meta, x: &[f64], share: f64) -> Vec<f64> {
 }
 
 /// Bound multipliers μ/slack, at most `largest`.
-pub(super) fn central_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate, mu: f64, largest: f64) {
+pub(super) fn central_bound_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, mu: f64, largest: f64) {
     for j in 0..form.size() {
         let central = |slack: f64| if slack.is_finite() { (mu / slack).min(largest) } else { 0.0 };
         iterate.z_lower[j] = central(iterate.w[j] - form.lower[j]);
@@ -79,7 +76,7 @@ pub(super) fn central_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate, 
 }
 
 /// Bound multipliers 1, the usual first guess.
-pub(super) fn unit_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate) {
+pub(super) fn unit_bound_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate) {
     for j in 0..form.size() {
         iterate.z_lower[j] = f64::from(u8::from(form.lower[j].is_finite()));
         iterate.z_upper[j] = f64::from(u8::from(form.upper[j].is_finite()));
@@ -87,7 +84,7 @@ pub(super) fn unit_bound_multipliers(form: &Form<'_>, iterate: &mut Iterate) {
 }
 
 /// Row multipliers by least squares: min ‖∇f + Aᵀy − z_l + z_u‖₂. Zero where they come out large or not at all.
-pub(super) fn least_squares_multipliers(form: &Form<'_>, kkt: &mut Kkt, iterate: &mut Iterate) {
+pub(super) fn least_squares_multipliers(form: &SlackForm<'_>, kkt: &mut Kkt, iterate: &mut Iterate) {
     iterate.y.fill(0.0);
     if iterate.y.is_empty() {
         return;
@@ -104,13 +101,13 @@ pub(super) fn least_squares_multipliers(form: &Form<'_>, kkt: &mut Kkt, iterate:
     let zeros = vec![0.0; iterate.y.len()];
     let solved = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0)
         && kkt.solve(Sides { w: &right, rows: &zeros }, &mut w_step, &mut y).is_ok();
-    if solved && norm_max(&y) <= PARAMETERS.largest_guess {
+    if solved && norm_max(&y) <= PARAMETERS.lambda_max {
         iterate.y = y;
     }
 }
 
 /// Multipliers of an earlier answer (the model's rows and units); bound multipliers follow from stationarity.
-pub(super) fn warm_multipliers(form: &Form<'_>, iterate: &mut Iterate, given: &[f64], mu: f64) {
+pub(super) fn warm_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, given: &[f64], mu: f64) {
     for (i, y) in iterate.y.iter_mut().enumerate() {
         *y = given.get(form.rows[i]).copied().filter(|y| y.is_finite()).unwrap_or(0.0) * form.objective_scale / form.row_scale[i];
     }

@@ -4,23 +4,12 @@
 //! half the order or less. Where D is very large (an active limit) Δ is smaller than D, so that W is not lost in rounding; solutions
 //! are refined with the whole matrix, which makes up for that and for the rounding of the condensed one.
 
+use super::super::parameters::PARAMETERS;
 use super::super::vectors::norm_max;
 use super::system::System;
 use crate::linear_algebra::congruence::CongruentSolver;
 use crate::linear_algebra::{FactorizationError, Inertia};
 use crate::model::Pattern;
-
-/// Rows with more variables than this are left in the matrix.
-const LONGEST_ROW: usize = 4;
-/// Smaller systems are factorised as they are.
-const LEAST_ORDER: usize = 2000;
-/// Δ·a² is at most this multiple of the curvature the row's variables have without it: half of the digits for each.
-const STIFFEST: f64 = 1e8;
-const LEAST_CURVATURE: f64 = 1e-10;
-/// Refinement steps at the most, the relative residual at which they end, and the one up to which a solution is any good.
-const MOST_STEPS: usize = 10;
-const ENOUGH: f64 = 1e-11;
-const USABLE: f64 = 1e-7;
 
 /// Factors, and where the system's values stand in the matrix.
 pub(super) struct Condensed {
@@ -46,10 +35,10 @@ pub(super) struct Condensed {
 impl Condensed {
     /// The condensed form of a large system; `None` where there is little to condense. `slack` tells the inequality rows.
     pub fn new(system: &System, slack: &[Option<usize>]) -> Option<Self> {
-        let is_short = |&i: &usize| slack[i].is_some() && system.jacobian.range(i).len() <= LONGEST_ROW;
+        let is_short = |&i: &usize| slack[i].is_some() && system.jacobian.range(i).len() <= PARAMETERS.condensing.longest_row;
         let (condensed, kept): (Vec<usize>, Vec<usize>) = (0..slack.len()).partition(is_short);
         let n = system.primal.len();
-        if system.order() < LEAST_ORDER || condensed.len() < kept.len() {
+        if system.order() < PARAMETERS.condensing.least_order || condensed.len() < kept.len() {
             return None;
         }
         let pattern = pattern(system, &condensed, &kept);
@@ -111,8 +100,8 @@ impl Condensed {
         let mut correction = std::mem::take(&mut self.correction);
         residual.copy_from_slice(right);
         let mut least = size;
-        for _ in 0..MOST_STEPS {
-            if least <= ENOUGH * size || self.solve_condensed(system, &residual, &mut correction).is_err() {
+        for _ in 0..PARAMETERS.condensing.most_steps {
+            if least <= PARAMETERS.condensing.enough * size || self.solve_condensed(system, &residual, &mut correction).is_err() {
                 break;
             }
             solution.iter_mut().zip(&correction).for_each(|(x, step)| *x += step);
@@ -130,7 +119,7 @@ impl Condensed {
             }
         }
         (self.residual, self.correction) = (residual, correction);
-        (least <= USABLE * size).then_some(())
+        (least <= PARAMETERS.condensing.usable * size).then_some(())
     }
 
     /// Δ of every condensed row: D, but for limits of stiffness.
@@ -138,9 +127,9 @@ impl Condensed {
         for (&i, weight) in self.condensed.iter().zip(&mut self.weights) {
             let stiffest = system.jacobian.range(i).fold(f64::INFINITY, |least: f64, at| {
                 let curvature = self.values[self.diagonal_places[system.jacobian.columns[at] as usize]].abs();
-                least.min(curvature.max(LEAST_CURVATURE) / system.jacobian_values[at].powi(2))
+                least.min(curvature.max(PARAMETERS.condensing.least_curvature) / system.jacobian_values[at].powi(2))
             });
-            *weight = (1.0 / system.dual[i]).min(STIFFEST * stiffest);
+            *weight = (1.0 / system.dual[i]).min(PARAMETERS.condensing.stiffest * stiffest);
         }
     }
 

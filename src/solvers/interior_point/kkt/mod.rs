@@ -10,17 +10,12 @@ mod condensed;
 mod full;
 mod system;
 
-use super::form::Form;
 use super::parameters::PARAMETERS;
+use super::slack_form::SlackForm;
 use crate::linear_algebra::{FactorizationError, Inertia};
 use condensed::Condensed;
 use full::Full;
 use system::System;
-
-/// Failures after which the condensed form is given up.
-const MOST_FAILURES: usize = 3;
-/// Halvings (of the logarithm) towards the least δ_w.
-const BISECTIONS: usize = 8;
 
 /// Matrix, factors and the memory of earlier corrections.
 pub(super) struct Kkt {
@@ -51,9 +46,9 @@ pub(super) struct Kkt {
 /// The values a KKT matrix is made of.
 #[derive(Clone, Copy)]
 pub(super) struct Blocks<'b> {
-    /// Along [`Form::hessian`].
+    /// Along [`SlackForm::hessian`].
     pub hessian: &'b [f64],
-    /// Along [`Form::jacobian`].
+    /// Along [`SlackForm::jacobian`].
     pub jacobian: &'b [f64],
     /// Σ, for variables and slacks.
     pub sigma: &'b [f64],
@@ -67,7 +62,7 @@ pub(super) struct Sides<'s> {
 
 impl Kkt {
     /// Analyses the pattern.
-    pub fn new(form: &Form<'_>) -> Result<Self, FactorizationError> {
+    pub fn new(form: &SlackForm<'_>) -> Result<Self, FactorizationError> {
         let system = System::new(form);
         let condensed = Condensed::new(&system, &form.slack).map(Box::new);
         let full = if condensed.is_none() { Some(Box::new(Full::new(&system)?)) } else { None };
@@ -92,7 +87,7 @@ impl Kkt {
 
     /// The Σ that holds a variable in its place: large, but no larger than the factors can bear.
     pub fn rigid(&self) -> f64 {
-        if self.condensed.is_some() { 1e12 } else { 1e30 }
+        if self.condensed.is_some() { PARAMETERS.condensing.rigid } else { PARAMETERS.condensing.rigid_in_full }
     }
 
     /// Factorises with the corrections δ_w and δ_c.
@@ -128,7 +123,7 @@ impl Kkt {
                 return Err(FactorizationError::Singular);
             }
             self.failures += 1;
-            if self.failures >= MOST_FAILURES {
+            if self.failures >= PARAMETERS.condensing.most_failures {
                 self.condensed = None;
             }
         }
@@ -154,7 +149,7 @@ impl Kkt {
     /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
     pub fn factor_corrected(&mut self, blocks: Blocks<'_>, mu: f64) -> Result<bool, FactorizationError> {
         let wanted = self.wanted();
-        let regularisation = PARAMETERS.delta_c * mu.powf(0.25);
+        let regularisation = PARAMETERS.delta_c * mu.powf(PARAMETERS.kappa_c);
         let mut dual = if self.dependent { regularisation } else { 0.0 };
         match self.factor(blocks, 0.0, dual) {
             Ok(inertia) if inertia == wanted => return Ok(true),
@@ -193,7 +188,7 @@ impl Kkt {
         }
         let wanted = self.wanted();
         let (mut too_small, mut enough) = (self.correction / PARAMETERS.inertia.first_increase, self.correction);
-        for _ in 0..BISECTIONS {
+        for _ in 0..PARAMETERS.bisections {
             let middle = (too_small * enough).sqrt();
             let right = self.factor(blocks, middle, PARAMETERS.delta_c).is_ok_and(|inertia| inertia == wanted);
             *(if right { &mut enough } else { &mut too_small }) = middle;

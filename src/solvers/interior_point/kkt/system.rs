@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::form::Form;
+use super::super::slack_form::SlackForm;
 use crate::model::Pattern;
 
 /// [ W + diag(primal), Aᵀ; A, −diag(dual) ]
@@ -20,7 +20,7 @@ pub(super) struct System {
 
 impl System {
     /// Room for the values of this form's matrix.
-    pub fn new(form: &Form<'_>) -> Self {
+    pub fn new(form: &SlackForm<'_>) -> Self {
         System {
             hessian: Arc::clone(&form.hessian),
             jacobian: Arc::clone(&form.jacobian),

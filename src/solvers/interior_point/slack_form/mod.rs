@@ -4,12 +4,15 @@
 //! `c(x) − s` for an inequality. Rows without any limit and fixed variables are gone. Variables are scaled by powers of
 //! two, so that bounds survive the way there and back bit for bit.
 
+mod evaluation;
+mod selection;
+
 use super::parameters::PARAMETERS;
+use super::scaling;
+use crate::model::{Model, Pattern};
+use selection::{Entry, select_hessian, select_jacobian};
 use std::ops::Deref;
 use std::sync::Arc;
-
-use super::scaling;
-use crate::model::{EvaluationError, Model, Pattern};
 
 /// A model given, or made for the purpose (the restoration's).
 pub(super) enum Source<'a> {
@@ -28,14 +31,8 @@ impl<'a> Deref for Source<'a> {
     }
 }
 
-/// One value of a derivative: where it stands in the model's pattern, and its scale.
-struct Entry {
-    source: usize,
-    factor: f64,
-}
-
 /// The problem in the interior point's form, with room for one evaluation.
-pub(super) struct Form<'a> {
+pub(super) struct SlackForm<'a> {
     pub model: Source<'a>,
     /// The model's number of each variable of w.
     pub free: Vec<usize>,
@@ -65,7 +62,7 @@ pub(super) struct Form<'a> {
     multipliers: Vec<f64>,
 }
 
-impl<'a> Form<'a> {
+impl<'a> SlackForm<'a> {
     /// The form of `model`, fixed variables at `start`, the others scaled by `magnitudes`, rows and objective not yet.
     pub fn new(model: Source<'a>, start: &[f64], magnitudes: &[f64]) -> Self {
         let meta = model.meta();
@@ -85,7 +82,7 @@ impl<'a> Form<'a> {
         }
         let (n, m) = (meta.variables(), meta.rows());
         let (jacobian_size, hessian_size) = (meta.jacobian.len(), meta.hessian.len());
-        let mut form = Form {
+        let mut form = SlackForm {
             row_scale: vec![1.0; rows.len()],
             objective_scale: 1.0,
             ease: 0.0,
@@ -185,61 +182,6 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// Scaled f and the scaled values of the kept rows, slacks left out of account.
-    pub fn values(&mut self, w: &[f64], rows: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.x(w);
-        let objective = self.model.objective(&self.x)?;
-        self.rows_at_x(rows)?;
-        Ok(self.objective_scale * objective)
-    }
-
-    /// Scaled row values, scaled gradient (length [`Form::variables`]), Jacobian values. Returns scaled f.
-    pub fn first_order(
-        &mut self,
-        w: &[f64],
-        rows: &mut [f64],
-        gradient: &mut [f64],
-        jacobian: &mut [f64],
-    ) -> Result<f64, EvaluationError> {
-        self.x(w);
-        let objective = self.model.gradient(&self.x, &mut self.gradient_values)?;
-        for ((gradient, &j), scale) in gradient.iter_mut().zip(&self.free).zip(&self.variable_scale) {
-            *gradient = self.gradient_values[j] * scale * self.objective_scale;
-        }
-        self.rows_at_x(rows)?;
-        if !self.rows.is_empty() {
-            self.model.jacobian(&self.x, &mut self.jacobian_values)?;
-        }
-        for (value, entry) in jacobian.iter_mut().zip(&self.jacobian_entries) {
-            *value = self.jacobian_values[entry.source] * entry.factor;
-        }
-        Ok(self.objective_scale * objective)
-    }
-
-    fn rows_at_x(&mut self, rows: &mut [f64]) -> Result<(), EvaluationError> {
-        if self.rows.is_empty() {
-            return Ok(());
-        }
-        self.model.constraints(&self.x, &mut self.row_values)?;
-        for ((value, &i), scale) in rows.iter_mut().zip(&self.rows).zip(&self.row_scale) {
-            *value = self.row_values[i] * scale;
-        }
-        Ok(())
-    }
-
-    /// The scaled Hessian of the Lagrangian (objective weight 1) at w for scaled multipliers.
-    pub fn hessian(&mut self, w: &[f64], y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.x(w);
-        for ((&i, scale), y) in self.rows.iter().zip(&self.row_scale).zip(y) {
-            self.multipliers[i] = y * scale;
-        }
-        self.model.hessian(&self.x, self.objective_scale, &self.multipliers, &mut self.hessian_values)?;
-        for (value, entry) in values.iter_mut().zip(&self.hessian_entries) {
-            *value = self.hessian_values[entry.source] * entry.factor;
-        }
-        Ok(())
-    }
-
     /// Adds (∂g/∂w)ᵀy over variables and slacks to `target`.
     pub fn add_transposed(&self, jacobian: &[f64], y: &[f64], target: &mut [f64]) {
         self.jacobian.add_transposed(jacobian, y, &mut target[..self.free.len()]);
@@ -307,33 +249,4 @@ impl<'a> Form<'a> {
 /// How far a limit is eased; an infinite one is not.
 fn eased(limit: f64, ease: f64) -> f64 {
     if limit.is_finite() { ease * limit.abs().max(1.0) } else { 0.0 }
-}
-
-/// Which free variable each model variable is.
-fn positions(free: &[usize], variables: usize) -> Vec<Option<u32>> {
-    let mut position = vec![None; variables];
-    for (at, &j) in free.iter().enumerate() {
-        position[j] = Some(at as u32);
-    }
-    position
-}
-
-fn select_jacobian(pattern: &Pattern, rows: &[usize], free: &[usize], variables: usize) -> (Pattern, Vec<Entry>) {
-    let position = positions(free, variables);
-    let (mut selected, mut entries) = (Pattern::default(), Vec::new());
-    for &row in rows {
-        for source in pattern.range(row) {
-            if let Some(column) = position[pattern.columns[source] as usize] {
-                selected.columns.push(column);
-                entries.push(Entry { source, factor: 1.0 });
-            }
-        }
-        selected.offsets.push(selected.columns.len());
-    }
-    (selected, entries)
-}
-
-fn select_hessian(pattern: &Pattern, free: &[usize], variables: usize) -> (Pattern, Vec<Entry>) {
-    // Free variables keep their order, so the lower triangle of the selection is the selection of the lower triangle.
-    select_jacobian(pattern, free, free, variables)
 }

@@ -1,0 +1,162 @@
+//! The search on a matrix scaled to a unit diagonal.
+
+use super::{SWEEPS, TIE, TOLERANCE, WIDEST, ZERO};
+use nalgebra::{DMatrix, SymmetricEigen};
+use std::collections::HashSet;
+
+/// M with the diagonal 1 where that is possible.
+pub(super) struct Scaled {
+    pub(super) k: usize,
+    pub(super) entries: DMatrix<f64>,
+    pub(super) scale: Vec<f64>,
+}
+
+impl Scaled {
+    pub(super) fn new(matrix: &[f64], k: usize) -> Self {
+        let row = |i: usize| &matrix[i * k..(i + 1) * k];
+        let scale = |i: usize| {
+            let largest = row(i).iter().fold(0.0, |most: f64, m| most.max(m.abs()));
+            let size = row(i)[i].abs().max(f64::EPSILON * largest);
+            if size > 0.0 { size.sqrt().recip() } else { 1.0 }
+        };
+        let scale: Vec<f64> = (0..k).map(scale).collect();
+        let entry = |i: usize, j: usize| 0.5 * (matrix[i * k + j] + matrix[j * k + i]) * scale[i] * scale[j];
+        Scaled { k, entries: DMatrix::from_fn(k, k, entry), scale }
+    }
+
+    pub(super) fn unscaled(&self, s: &[f64]) -> Vec<f64> {
+        s.iter().zip(&self.scale).map(|(s, scale)| s * scale).collect()
+    }
+
+    pub(super) fn value(&self, s: &[f64]) -> f64 {
+        (0..self.k).map(|i| s[i] * self.slope(s, i)).sum()
+    }
+
+    /// (Ms)_i
+    pub(super) fn slope(&self, s: &[f64], i: usize) -> f64 {
+        (0..self.k).map(|j| self.entries[(i, j)] * s[j]).sum()
+    }
+
+    /// From every index, the others are moved to where they help most, one after the other: a vector whose value is negative
+    /// beyond rounding, where that finds one.
+    pub(super) fn descended(&self) -> Option<Vec<f64>> {
+        (0..self.k).find_map(|first| {
+            let mut s = vec![0.0; self.k];
+            s[first] = 1.0;
+            for _ in 0..SWEEPS {
+                let mut moved = 0.0f64;
+                for i in (0..self.k).filter(|&i| i != first) {
+                    let diagonal = self.entries[(i, i)].max(TOLERANCE);
+                    let to = (s[i] - self.slope(&s, i) / diagonal).clamp(0.0, 1e3);
+                    moved = moved.max((to - s[i]).abs());
+                    s[i] = to;
+                }
+                let square: f64 = s.iter().map(|s| s * s).sum();
+                if self.value(&s) < -TOLERANCE * self.k as f64 * square {
+                    return Some(s);
+                }
+                if moved < 1e-12 {
+                    break;
+                }
+            }
+            None
+        })
+    }
+
+    /// A vector of lower value for its length, by steps against the slope.
+    pub(super) fn lowered(&self, mut s: Vec<f64>) -> Vec<f64> {
+        let row = |i: usize| self.entries.row(i).iter().map(|m| m.abs()).sum::<f64>();
+        let longest = (0..self.k).map(row).fold(f64::MIN_POSITIVE, f64::max);
+        for _ in 0..SWEEPS {
+            let next: Vec<f64> = (0..self.k).map(|i| (s[i] - self.slope(&s, i) / longest).max(0.0)).collect();
+            let length = next.iter().map(|s| s * s).sum::<f64>().sqrt();
+            s = next.into_iter().map(|s| s / length).collect();
+        }
+        s
+    }
+
+    /// Visits the lowest eigenvectors without negative entries of the submatrices whose lowest eigenvalue is below `threshold`,
+    /// until `visit` has seen enough. False where not all could be looked at.
+    pub(super) fn search(&self, threshold: f64, faces: usize, mut visit: impl FnMut(&[f64]) -> bool) -> bool {
+        let (mut waiting, mut seen, mut left) = (vec![(0..self.k).collect::<Vec<usize>>()], HashSet::new(), faces);
+        while let Some(support) = waiting.pop() {
+            let mut parts = self.tied(&support);
+            if parts.len() > 1 {
+                waiting.append(&mut parts);
+                continue;
+            }
+            if !seen.insert(support.clone()) {
+                continue;
+            }
+            let Some((lowest, vector)) = self.lowest(&support, |entry| entry) else { return false };
+            // Without its positive entries off the diagonal M is less; where it is definite even so, no part of it falls.
+            let bounded = |off: f64| off.min(0.0);
+            let is_bounded = || threshold < 0.0 && self.lowest(&support, bounded).is_some_and(|(least, _)| least >= threshold);
+            if lowest >= threshold || is_bounded() {
+                continue;
+            }
+            if left == 0 || support.len() > WIDEST {
+                return false;
+            }
+            left -= 1;
+            if let Some(s) = self.spread(&support, &vector)
+                && visit(&s)
+            {
+                return true;
+            }
+            // A minimiser over the face is this vector, or lies on a smaller face.
+            for out in 0..support.len() {
+                let smaller: Vec<usize> = (0..support.len()).filter(|&at| at != out).map(|at| support[at]).collect();
+                waiting.push(smaller);
+            }
+        }
+        true
+    }
+
+    /// The parts of a support that negative entries tie together.
+    pub(super) fn tied(&self, support: &[usize]) -> Vec<Vec<usize>> {
+        let (mut left, mut parts) = (support.to_vec(), Vec::new());
+        while let Some(first) = left.pop() {
+            let (mut part, mut at) = (vec![first], 0);
+            while at < part.len() {
+                let i = part[at];
+                left.retain(|&j| {
+                    let tied = self.entries[(i, j)] < -TIE;
+                    if tied {
+                        part.push(j);
+                    }
+                    !tied
+                });
+                at += 1;
+            }
+            part.sort_unstable();
+            parts.push(part);
+        }
+        parts
+    }
+
+    /// The lowest eigenvalue over a support and its vector, the entries off the diagonal being changed.
+    pub(super) fn lowest(&self, support: &[usize], off: impl Fn(f64) -> f64) -> Option<(f64, Vec<f64>)> {
+        if let [only] = support {
+            return Some((self.entries[(*only, *only)], vec![1.0]));
+        }
+        let entry = |i: usize, j: usize| {
+            if i == j { self.entries[(support[i], support[i])] } else { off(self.entries[(support[i], support[j])]) }
+        };
+        let part = DMatrix::from_fn(support.len(), support.len(), entry);
+        let eigen = SymmetricEigen::try_new(part, f64::EPSILON, 1000)?;
+        let (at, lowest) = eigen.eigenvalues.argmin();
+        Some((lowest, eigen.eigenvectors.column(at).iter().copied().collect()))
+    }
+
+    /// A vector over a support or its negative among all indices, where one has no negative entry.
+    pub(super) fn spread(&self, support: &[usize], vector: &[f64]) -> Option<Vec<f64>> {
+        let sign = if vector.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+        if vector.iter().any(|v| sign * v < -ZERO) {
+            return None;
+        }
+        let mut s = vec![0.0; self.k];
+        support.iter().zip(vector).for_each(|(&i, v)| s[i] = (sign * v).max(0.0));
+        Some(s)
+    }
+}
