@@ -77,8 +77,16 @@ fn entries(lifted: &Lifted) -> usize {
 }
 
 fn is_large(lifted: &Lifted) -> bool {
-    entries(lifted) > LARGEST_DENSE
+    let few = lifted.states().first_variable <= FEW_VARIABLES && entries(lifted) <= LARGEST_OF_FEW;
+    entries(lifted) > LARGEST_DENSE && !few
 }
+
+/// Design variables up to which the reduced model judges larger problems, too: each is in nearly every row of the lifted one by the sections it
+/// shares, and so many dense columns fill its factors, while derivatives of the reduced one cost a solve each.
+const FEW_VARIABLES: usize = 64;
+
+/// Entries of the reduced Jacobian up to which it does: 8 MB.
+const LARGEST_OF_FEW: usize = 1_000_000;
 
 /// Assembles a problem: reduced to its design variables where it asks for responses of a structure.
 ///
