@@ -74,3 +74,41 @@ fn the_tower_of_25_bars_is_545_pounds_either_way() {
     let (structure, by_hand) = ("problems/tower-25-bars.toml", "tests/data/tower-25-bars-by-hand.toml");
     same_optimum(&in_repository(structure), &in_repository(by_hand), 545.162_710_2);
 }
+
+/// A mast of two segments that carries what lies outboard of each: sums that run over the other ribs, by a datum of the row's own.
+#[test]
+fn a_sum_may_name_the_item_outside_it() {
+    let section = |name: &str| {
+        format!("[sections.{name}]\nkind = \"rectangle\"\nb = 0.1\nh = {{ lower = 0.05, upper = 2, start = 0.5 }}\n")
+    };
+    let rib = |name: &str, section: &str, x: f64, line: &str| {
+        format!("[[ribs]]\nname = \"{name}\"\nsection = \"{section}\"\nlength = 5\ndata = {{ x = {x}, line = \"{line}\" }}\n")
+    };
+    let text = format!(
+        "minimize = \"volume\"\n{}{}{}{}{}[definitions]\npairs = \"sum(ribs: sum(ribs where line == outer.line and x > outer.x: x - outer.x))\"\n\
+         [[constraints]]\nname = \"root\"\nfor = \"ribs\"\n\
+         require = \"(10*(10 - x) + sum(ribs where x > outer.x and line == outer.line: 78*volume*(x + 2.5 - outer.x)))/from.Wx <= 100e3\"\n",
+        section("a"),
+        section("b"),
+        rib("r1", "a", 0.0, "mast"),
+        rib("r2", "b", 5.0, "mast"),
+        rib("other", "b", 7.0, "beside"),
+    );
+    let input = ribopt::input::read_text("mast.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert!(input.warnings.is_empty(), "{:?}", input.problem.warnings);
+    let subject = Subject::of_text("mast.toml", &text).unwrap();
+    let found = outcome(&subject).unwrap();
+    assert_eq!(found.status, Status::Certified, "{}", found.message);
+    // r2 carries 10·5 alone; r1 its own 10·10 and the weight of r2 at 7.5.
+    let outer = (6.0 * 50.0 / 0.1 / 100e3f64).sqrt();
+    let inner = (6.0 * (100.0 + 78.0 * 0.1 * outer * 5.0 * 7.5) / 0.1 / 100e3).sqrt();
+    assert!((found.x[0] - inner).abs() < 1e-8 && (found.x[1] - outer).abs() < 1e-8, "{:?}", found.x);
+}
+
+#[test]
+fn without_an_item_outside_outer_is_a_mistake() {
+    let text = "minimize = \"sum(ribs: outer.length*volume)\"\n[sections.a]\nkind = \"rectangle\"\nb = 0.1\n\
+                h = { lower = 0.05, upper = 2 }\n[[ribs]]\nname = \"r\"\nsection = \"a\"\nlength = 5\n";
+    let message = ribopt::input::read_text("x.toml", text).unwrap_err().to_string();
+    assert!(message.contains("no item outside"), "{message}");
+}

@@ -43,6 +43,8 @@ impl Assembled {
                 let fits = entries(model.lifted()) <= LARGEST_REDUCED;
                 fits.then(|| Box::new(DesignAlone(Arc::clone(model))) as Box<dyn Substitution + Send>)
             }
+            // Beyond what is small, few design variables are dense columns beside the displacements.
+            Assembled::Structure(model) if entries(model.lifted()) > LARGEST_DENSE => None,
             Assembled::Structure(model) => Some(Box::new(WithDisplacements(Arc::clone(model)))),
         }
     }

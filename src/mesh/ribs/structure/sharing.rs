@@ -11,9 +11,9 @@ pub enum Sharing {
     /// None but where lines end at one vertex.
     Station,
     /// Those at places of the same height and distance from the middle on plan, and as far along lines of the same length.
-    #[default]
     Symmetric,
     /// Those of a line, and of lines of the same length, height and distance from the middle.
+    #[default]
     Line,
     /// All.
     One,

@@ -26,11 +26,13 @@ pub(super) fn problem(options: &Options, structure: &Structure, shape: &Shape) -
     if let Some(unit) = options.unit {
         let _ = writeln!(text, "units = {{ length = \"{}\", force = \"kN\" }}", unit.name());
     }
+    // Loads on nodes leave forces between them linear, but for the ribs' own weight.
+    let stations = if shape.has_surface { "[0, 1]" } else { "[0, 0.25, 0.5, 0.75, 1]" };
     let _ = write!(
         text,
         "\n[structure]\n\
          gravity = [0, 0, -1]                       # density is a weight per volume here\n\
-         stations = [0, 0.5, 1]\n\
+         stations = {stations}\n\
          \n[materials.steel]\nE = {:?}\nnu = {:?}\ndensity = {:?}\nstrength = {:?}\n\n[parameters]\n",
         options.elastic_modulus, structure.poisson, structure.density, structure.strength
     );

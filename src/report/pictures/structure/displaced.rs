@@ -48,6 +48,7 @@ fn one(
     let below = [corner[0], corner[1] + NAME - 10.0];
     let before = Style { dash: "4 3", ..Style::line(Ink::Middle, 1.0) };
     drawing.structure(canvas, below, courses, before);
+    let mut all = String::new();
     for member in 0..courses.members.len() {
         let places = (0..courses.stations.len()).map(|station| {
             let (point, moved) = (courses.point(member, station), case.moved[courses.at(member, station)]);
@@ -65,8 +66,9 @@ fn one(
                 canvas.path(&through([node, end], false), Style::line(Ink::Curve(0), 2.5));
             }
         }
-        canvas.path(&through(places, false), Style::line(Ink::Curve(0), line_width(courses)));
+        all.push_str(&through(places, false));
     }
+    canvas.path(&all, Style::line(Ink::Curve(0), line_width(courses)));
     drawing.node_names(canvas, below, courses);
 }
 

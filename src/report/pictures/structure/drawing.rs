@@ -65,9 +65,10 @@ impl Drawing {
 
     /// The structure before anything acts: ribs, rigid arms and supports.
     pub fn structure(&self, canvas: &mut Canvas, corner: [f64; 2], courses: &Courses, style: Style) {
+        let mut all = String::new();
         for member in &courses.members {
             let ends = member.ends.map(|end| self.at(corner, end));
-            canvas.path(&through(ends, false), style);
+            all.push_str(&through(ends, false));
             for (end, node) in member.nodes.into_iter().enumerate() {
                 let node = self.at(corner, courses.nodes[node as usize].position);
                 if (node[0] - ends[end][0]).hypot(node[1] - ends[end][1]) > 0.5 {
@@ -75,6 +76,7 @@ impl Drawing {
                 }
             }
         }
+        canvas.path(&all, style);
         let size = if courses.members.len() > MANY { 3.0 } else { 6.0 };
         courses.nodes.iter().for_each(|node| {
             let at = self.at(corner, node.position);

@@ -1,5 +1,7 @@
 //! The course of forces along the ribs: a block per case, a panel per force.
 
+use std::collections::BTreeMap;
+
 use super::super::canvas::{Canvas, Ink, Style, cut, through};
 use super::drawing::{Drawing, line_width};
 use super::labels::{self, LETTER, Label};
@@ -89,28 +91,31 @@ impl Panel<'_> {
         let value = |member: usize, station: usize| case.forces[courses.at(member, station)][self.force];
         let sizes = case.forces.iter().map(|all| all[self.force].abs()).filter(|value| value.is_finite());
         let largest = if is_there(case, self.force) { sizes.fold(0.0, f64::max) } else { 0.0 };
-        let mut labels = Vec::new();
+        let (mut labels, mut lines) = (Vec::new(), Lines::new());
         let as_widths = courses.members.len() > MANY || courses.members.iter().all(|member| member.pinned);
         let thin = if as_widths { 0.5 } else { line_width(courses) };
         self.drawing.structure(canvas, self.corner, courses, Style::line(Ink::Middle, thin));
         for (number, member) in courses.members.iter().enumerate().filter(|_| largest > 0.0) {
             let values: Vec<f64> = (0..courses.stations.len()).map(|station| value(number, station)).collect();
             if as_widths {
-                self.line(canvas, member.ends, &values, largest, &mut labels);
+                self.line(member.ends, &values, largest, (&mut lines, &mut labels));
             } else {
                 self.diagram(canvas, courses, number, &values, largest, &mut labels);
             }
+        }
+        for ((negative, tenths), data) in lines {
+            canvas.path(&data, Style::line(ink(if negative { -1.0 } else { 1.0 }), f64::from(tenths) / 10.0));
         }
         labels::write(canvas, labels, MOST_LABELS);
     }
 
     /// A rib as a line whose width and colour are its force of the largest size.
-    fn line(&self, canvas: &mut Canvas, ends: [[f64; 3]; 2], values: &[f64], largest: f64, labels: &mut Vec<Label>) {
+    fn line(&self, ends: [[f64; 3]; 2], values: &[f64], largest: f64, (lines, labels): (&mut Lines, &mut Vec<Label>)) {
         let most = values.iter().copied().fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most });
         let ends = ends.map(|end| self.drawing.at(self.corner, end));
-        let width = WIDEST * most.abs() / largest;
-        if width > 0.05 {
-            canvas.path(&through(ends, false), Style::line(ink(most), (10.0 * width).round() / 10.0));
+        let tenths = (10.0 * WIDEST * most.abs() / largest).round() as u32;
+        if tenths > 0 {
+            lines.entry((most < 0.0, tenths)).or_default().push_str(&through(ends, false));
         }
         // Not in the middle, where bars cross.
         let at = std::array::from_fn(|d| ends[0][d] + 0.4 * (ends[1][d] - ends[0][d]));
@@ -170,6 +175,9 @@ impl Panel<'_> {
         [sign * x, sign * y]
     }
 }
+
+/// Paths by sign and by width in tenths of a pixel: a path for each rib would be megabytes.
+type Lines = BTreeMap<(bool, u32), String>;
 
 fn ink(value: f64) -> Ink {
     if value < 0.0 { Ink::Curve(1) } else { Ink::Curve(0) }
