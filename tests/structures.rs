@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use ribopt::crosscheck::Status;
 use ribopt::model::derivative_check::derivative_check;
 use ribopt::model::{Model, States};
 use ribopt::run::Subject;
@@ -413,4 +414,58 @@ sway = \"disp(P, c, x)\"
     assert!(matches!(error, AnalysisError::Mechanism(_)), "{error}");
     let message = error.to_string();
     assert!(message.contains("node c can move in x") && message.contains("node d can move in x"), "{message}");
+}
+
+/// Two bars of one area from the ground to an apex: a load P on it moves it by P·√2/(E·A) downwards, one of (P, −P) by 2P/(E·A) along one bar.
+/// The size of a displacement has no derivative at zero, where the analysis begins.
+#[test]
+fn the_size_of_a_displacement_may_be_limited() {
+    let (stiffness, load, limit) = (2.1e8_f64, 100.0_f64, 1e-3_f64);
+    for (name, force, along) in [("down", "[0, -100]", 2.0_f64.sqrt()), ("aside", "[100, -100]", 2.0)] {
+        let text = format!(
+            "minimize = \"volume\"\n[structure]\nplane = \"xz\"\njoints = \"pinned\"\n{MATERIAL}
+[nodes]
+a = [0, 0]
+b = [2, 0]
+c = [1, 1]
+[supports]
+a = \"pinned\"
+b = \"pinned\"
+[sections.s]
+kind = \"general\"
+A = {{ lower = 1e-5, upper = 1.0, start = 1e-3 }}
+[[ribs]]
+name = \"left\"
+start = \"a\"
+end = \"c\"
+section = \"s\"
+[[ribs]]
+name = \"right\"
+start = \"b\"
+end = \"c\"
+section = \"s\"
+[[loads]]
+case = \"P\"
+nodes = [\"c\"]
+force = {force}
+[[constraints]]
+name = \"size\"
+require = \"sqrt(disp(P, c, x)^2 + disp(P, c, z)^2) <= {limit}\"
+"
+        );
+        let subject = subject(&format!("size-{name}"), &text);
+        let found = ribopt::run::solve::outcome(&subject).unwrap();
+        assert_eq!(found.status, Status::Certified, "{name}");
+        let (area, volume) = (load * along / (stiffness * limit), found.objective.unwrap());
+        assert!((volume / (2.0 * 2.0_f64.sqrt() * area) - 1.0).abs() < 1e-8, "{name}: {volume}");
+    }
+}
+
+/// No definition of the ten-bar truss asks for a response: its equilibrium is looked at all the same.
+#[test]
+fn the_residual_is_measured_without_definitions() {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("problems/ten-bar-truss.toml");
+    let subject = Subject::read(&file, &[]).unwrap();
+    let residual = analyse(&subject, None, false).unwrap().equilibrium_residual;
+    assert!(residual > 0.0 && residual < 1e-13, "{residual}");
 }

@@ -6,7 +6,7 @@ use crate::model::{Class, EvaluationError, Model};
 use crate::problem::Settings;
 use crate::run::RunError;
 use crate::run::choice::{choose, refuse_if_none_accepts};
-use crate::run::solve::unobserved;
+use crate::run::unobserved::unobserved;
 
 /// Solves a model from its start with every backend of the settings (all that are built in, by default), and judges what they find.
 /// Nothing is known of its class, so a certified minimum is a local one.

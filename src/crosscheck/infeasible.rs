@@ -28,7 +28,7 @@ pub(super) enum Elasticity {
     Feasible(Vec<f64>),
     /// The least violation, stationary; `proved` where no point at all meets the limits.
     Infeasible { x: Vec<f64>, conflict: Conflict, proved: bool },
-    /// A point of little violation, not proved least.
+    /// A point of little violation, not proved least, or one where some limit has no value.
     Unproved(Vec<f64>),
 }
 
@@ -65,10 +65,10 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
         Least::Violation(best) => work.in_own_scales(&all, *best),
     };
     let proved = known || work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
-    if !proved && !best.certificate.certified {
-        return Some(Elasticity::Unproved(work.outward(&best.x)));
+    if proved || (best.certificate.certified && work.is_violated(&best)) {
+        return Some(work.infeasible(&best, proved));
     }
-    Some(work.infeasible(&best, proved))
+    Some(Elasticity::Unproved(work.outward(&best.x)))
 }
 
 /// The model backends work on, and what may be spent on it.
@@ -135,6 +135,12 @@ impl<'a> Work<'a> {
     fn is_feasible(&self, z: &[f64]) -> bool {
         let worst = self.session.judge.primal_infeasibility(&self.outward(z));
         worst.is_some_and(|worst| worst <= self.session.tolerances.constraint)
+    }
+
+    /// Whether the user's limits have a value at an elastic minimum and are not met there. A point without a value says nothing of them.
+    fn is_violated(&self, relaxed: &Relaxed) -> bool {
+        let worst = self.session.judge.primal_infeasibility(&self.outward(&relaxed.x));
+        relaxed.violation > self.least() && worst.is_some_and(|worst| worst > self.session.tolerances.constraint)
     }
 
     /// Begins a phase with work of its own.

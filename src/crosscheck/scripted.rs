@@ -10,7 +10,7 @@ use super::*;
 use crate::backends::argmin::Argmin;
 use crate::backends::{Job, Solution};
 use crate::model::sample::{Sample, Value};
-use crate::model::{Class, Model};
+use crate::model::{Class, Model, Substitution};
 use crate::problem::Settings;
 
 const INF: f64 = f64::INFINITY;
@@ -86,16 +86,18 @@ fn judged(
     backends: &[&dyn Backend],
     interrupt: Option<&AtomicBool>,
 ) -> Outcome {
-    let task = Task {
-        model,
-        substitution: None,
-        class,
-        settings,
-        start: &model.meta().start,
-        start_multipliers: None,
-        starts: 0,
-        interrupt,
-    };
+    judged_with((model, None), class, settings, backends, interrupt)
+}
+
+fn judged_with(
+    (model, substitution): (&Sample, Option<&dyn Substitution>),
+    class: Class,
+    settings: &Settings,
+    backends: &[&dyn Backend],
+    interrupt: Option<&AtomicBool>,
+) -> Outcome {
+    let task =
+        Task { model, substitution, class, settings, start: &model.meta().start, start_multipliers: None, starts: 0, interrupt };
     let backends: Vec<(&dyn Backend, &str)> = backends.iter().map(|&backend| (backend, "auto")).collect();
     run(&task, &backends, &mut |_, _| Box::new(|_| {}))
 }
@@ -250,4 +252,29 @@ fn a_proof_of_infeasibility_stands_against_a_point_far_away() {
     let found = judged(&model, Class::Convex, &Settings::default(), &[&away, &Argmin], None);
     assert_eq!((found.status, found.scope, found.exit_code()), (Status::Infeasible, crate::certificate::Scope::Global, 3));
     assert_eq!(found.conflict.unwrap().rows, [0, 1]);
+}
+
+/// The same variables: rows that have values where those of the judged model have none.
+struct Valued(Sample);
+
+impl Substitution for Valued {
+    fn model(&self) -> &dyn Model {
+        &self.0
+    }
+
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
+        x.to_vec()
+    }
+
+    fn outward(&self, z: &[f64]) -> Vec<f64> {
+        z.to_vec()
+    }
+}
+
+#[test]
+fn limits_without_a_value_are_not_called_infeasible() {
+    let nowhere = Sample::new(&[2.0], |x| x[0] * x[0]).row(-INF, 1.0, |x| x[0] * f64::NAN);
+    let valued = Valued(Sample::new(&[2.0], |x| x[0] * x[0]).row(-INF, 1.0, |x| x[0] * 1.0));
+    let found = judged_with((&nowhere, Some(&valued)), Class::Nonlinear, &Settings::default(), &[&Argmin], None);
+    assert!(!matches!(found.status, Status::Infeasible | Status::Certified), "{found:#?}");
 }

@@ -148,8 +148,12 @@ fn agreement(session: &Session<'_>, outcome: &Outcome) -> Option<Agreement> {
 /// The best rigorous bound any certified answer's multipliers give.
 fn bound(session: &Session<'_>, outcome: &Outcome) -> Option<f64> {
     let certified = |answer: &&Answer| answer.is_certified();
-    let bounds = outcome.answers.iter().filter(certified).filter_map(|answer| bound_at(session, &answer.solution.x));
-    bounds.reduce(f64::max)
+    let bounds = outcome.answers.iter().filter(certified).flat_map(|answer| {
+        let judged = answer.certificate.as_ref().filter(|_| session.task.substitution.is_none());
+        let own = judged.and_then(|judged| lower_bound(session.task.model, &answer.solution.x, &judged.row_multipliers).ok()?);
+        [own, bound_at(session, &answer.solution.x)]
+    });
+    bounds.flatten().reduce(f64::max)
 }
 
 /// The rigorous bound of a convex class, in the variables in which it is convex, rounded outwards.

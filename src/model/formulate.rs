@@ -28,12 +28,27 @@ pub struct Formulation {
     pub substitution: Option<Box<dyn Substitution + Send>>,
 }
 
-/// Formulates a problem.
+/// Formulates a problem. Statically determinate trusses are written out in the forces of equilibrium where that proves them convex or
+/// geometric programs.
 ///
 /// # Errors
 /// Where one term couples so many variables that its second derivatives do not fit.
 pub fn formulate(problem: Problem) -> Result<Formulation, AssemblyError> {
-    let problem = Arc::new(if problem.auxiliaries.is_empty() { problem.without_kinks() } else { problem });
+    if !problem.auxiliaries.is_empty() {
+        return formulated(problem);
+    }
+    let problem = problem.with_force_limits();
+    if let Some(explicit) = problem.determinate() {
+        let explicit = formulated(explicit.without_kinks())?;
+        if explicit.class.is_global() {
+            return Ok(explicit);
+        }
+    }
+    formulated(problem.without_kinks())
+}
+
+fn formulated(problem: Problem) -> Result<Formulation, AssemblyError> {
+    let problem = Arc::new(problem);
     let model = assemble_any(&problem)?;
     let shown = match problem.auxiliaries.is_empty() {
         true => model.clone(),

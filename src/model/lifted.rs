@@ -7,10 +7,11 @@ mod equations;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use super::states::{States, WithStates};
+pub use super::states::States;
+use super::stiffness::{Factors, Mechanism, Stiffness};
 use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
-use super::views::reduced::{Factors, Stiffness};
+use super::with_states::WithStates;
 use super::{AssemblyError, EvaluationError, Meta, Model, NameTable, Names, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
 use crate::problem::statics::{Input, Statics};
@@ -60,12 +61,12 @@ impl Lifted {
         let names =
             LiftedNames { own: rows.meta().names.clone(), problem: Arc::clone(problem), states, directions: directions.clone() };
         let meta = Meta { names: NameTable::new(names), ..outer_meta(rows.meta(), states, &limits) };
-        let of_forces =
-            Meta { row_lower: vec![0.0; maps.outputs.len()], row_upper: vec![0.0; maps.outputs.len()], ..meta.clone() };
         let own_rows = known.len();
+        let right_sides = [vec![0.0; own_rows], limits].concat();
+        let of_forces = Meta { row_lower: right_sides.clone(), row_upper: right_sides, ..meta.clone() };
         let links = links(structure, statics, &numbering, &known);
         let model = Composed::new(Mapped::new(forces, maps, of_forces), rows, links, own_rows, meta);
-        let stiffness = Stiffness::of(model.meta(), states);
+        let stiffness = Stiffness::of(model.first().meta(), states);
         let problem = Arc::clone(problem);
         let mut lifted = Lifted { model, problem, states, directions, stiffness, latest: Mutex::default() };
         lifted.start_analysed();
@@ -104,6 +105,22 @@ impl Lifted {
     pub fn direction(&self, state: usize) -> (u32, usize) {
         let (node, direction) = self.directions[state];
         (node, direction.into())
+    }
+
+    /// The mechanism a design is, where it is one.
+    ///
+    /// # Errors
+    /// Where the state equations have no value.
+    pub fn mechanism(&self, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
+        self.stiffness.mechanism(self.model.first(), x)
+    }
+
+    /// The largest residual of a state equation at design and states, over the largest sum of the sizes of one's terms.
+    ///
+    /// # Errors
+    /// Where the state equations have no value.
+    pub fn residual(&self, z: &[f64]) -> Result<f64, EvaluationError> {
+        self.stiffness.residual(self.model.first(), z)
     }
 
     /// The model of the user's rows, over design variables and inputs.
@@ -298,6 +315,10 @@ fn outer_meta(inner: &Meta, states: States, loads: &[f64]) -> Meta {
 }
 
 impl WithStates for Lifted {
+    fn solve_states(&self, x: &[f64], earlier: Option<Factors>) -> Result<(Vec<f64>, Factors), EvaluationError> {
+        self.stiffness.solve_states(self.model.first(), x, earlier)
+    }
+
     fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
         let auxiliaries = &self.problem.auxiliaries;
         auxiliaries.first().map(|first| (auxiliaries.as_slice(), self.inner().rows_before(first.constraints.start)))
@@ -342,7 +363,7 @@ impl Model for Lifted {
     fn complete(&self, x: &mut [f64]) {
         let n = self.states.first_variable;
         let earlier = self.latest.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Ok((z, factors)) = self.stiffness.solve_states(self, &x[..n], earlier) {
+        if let Ok((z, factors)) = self.solve_states(&x[..n], earlier) {
             x[n..].copy_from_slice(&z[n..]);
             *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(factors);
         }

@@ -20,11 +20,15 @@ pub mod evaluator;
 mod formulate;
 pub mod lifted;
 mod names;
+pub mod relaxation;
+pub mod remainder;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod states;
+pub mod stiffness;
 pub mod structural;
 pub mod views;
+pub mod with_states;
 
 use thiserror::Error;
 

@@ -1,8 +1,5 @@
 //! Models some of whose variables follow from the others through equations of their own.
 
-use super::Model;
-use crate::problem::kinks::Auxiliary;
-
 /// Which variables are states, and which rows their equations: one block of both per load case, all after the design's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct States {
@@ -14,12 +11,4 @@ pub struct States {
     pub block: usize,
     /// Number of blocks. All have the same matrix ∂R/∂u.
     pub blocks: usize,
-}
-
-/// A model with states.
-pub trait WithStates: Model {
-    /// Design variables in the place of kinks, the last ones of the design, and the first of the rows that bound them.
-    fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {
-        None
-    }
 }

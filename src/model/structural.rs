@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use thiserror::Error;
-
 use super::{AssemblyError, EvaluationError, Lifted, Model, Reduced, RibModel, Substitution, assemble};
+use crate::problem::Problem;
 use crate::problem::structure::DIRECTIONS;
-use crate::problem::{Formula, Problem};
 
 /// A model over the design variables.
 #[derive(Clone)]
@@ -107,21 +105,17 @@ pub fn assemble_any(problem: &Arc<Problem>) -> Result<Assembled, AssemblyError> 
     }
 }
 
-/// How a problem's structure moves without resistance at a design, in words; `None` where it does not, or where there is none.
+/// How a structure moves without resistance at a design, in words; `None` where it does not.
 ///
 /// # Errors
-/// The structure cannot be assembled, or has no value at x.
-pub fn mechanism(problem: &Arc<Problem>, x: &[f64]) -> Result<Option<String>, StructureError> {
-    let Some(structure) = problem.structure.as_deref().filter(|_| problem.statics.is_some()) else { return Ok(None) };
-    let bare =
-        Problem { constraints: Vec::new(), objective: Formula::default(), auxiliaries: Vec::new(), ..Problem::clone(problem) };
-    let lifted = Lifted::of(&Arc::new(bare))?;
-    let Some(reduced) = Reduced::of(lifted, false) else { return Ok(None) };
-    let Some(mechanism) = reduced.mechanism(x)? else { return Ok(None) };
+/// The state equations have no value at x.
+pub fn mechanism(lifted: &Lifted, x: &[f64]) -> Result<Option<String>, EvaluationError> {
+    let Some(structure) = lifted.problem().structure.as_deref() else { return Ok(None) };
+    let Some(mechanism) = lifted.mechanism(x)? else { return Ok(None) };
     let moving = mechanism.motion.iter().enumerate().filter(|(_, motion)| motion.abs() > NAMED_SHARE).take(MOST_NAMED);
     let words: Vec<String> = moving
         .map(|(state, _)| {
-            let (node, direction) = reduced.lifted().direction(state);
+            let (node, direction) = lifted.direction(state);
             let name = &structure.nodes.names[node as usize];
             match direction {
                 0..3 => format!("node {name} can move in {}", DIRECTIONS[direction]),
@@ -135,17 +129,6 @@ pub fn mechanism(problem: &Arc<Problem>, x: &[f64]) -> Result<Option<String>, St
 /// Directions that move by this share of the one that moves most are named, but not more than so many.
 const NAMED_SHARE: f64 = 0.3;
 const MOST_NAMED: usize = 6;
-
-/// Why a structure could not be looked at.
-#[derive(Debug, Error)]
-pub enum StructureError {
-    /// It cannot be assembled.
-    #[error(transparent)]
-    Assembly(#[from] AssemblyError),
-    /// It has no value.
-    #[error(transparent)]
-    Value(#[from] EvaluationError),
-}
 
 /// The lifted model as other variables of the reduced one: the analysed displacements beside the design.
 struct WithDisplacements(Arc<Reduced<Lifted>>);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::evaluate::{Evaluation, Item};
 use super::formula::{Members, Response, Subject};
 use super::range::end_section;
-use super::{Formula, Problem};
+use super::{Constraint, Formula, Limit, Problem, Scope};
 use crate::expression::ast::Collection;
 
 impl Problem {
@@ -51,6 +51,28 @@ impl Problem {
         })
     }
 
+    /// One row of a repeated constraint, written out; `None` where a number is missing.
+    pub fn one_row(&self, constraint: &Constraint, at: usize) -> Option<Constraint> {
+        let (item, group) = constraint.scope.item(at);
+        let scope = match &constraint.scope {
+            Scope::Once => Scope::Once,
+            Scope::Sections(items) => Scope::Sections(vec![items[at]]),
+            Scope::Ribs(items) => Scope::Ribs(vec![items[at]]),
+            Scope::RibGroups(groups) => Scope::RibGroups(vec![groups[at].clone()]),
+            Scope::SectionGroups(groups) => Scope::SectionGroups(vec![groups[at].clone()]),
+            Scope::Nodes(items) => Scope::Nodes(vec![items[at]]),
+            Scope::NodeGroups(groups) => Scope::NodeGroups(vec![groups[at].clone()]),
+        };
+        let written = |formula: &Formula| self.instance(formula, item, group);
+        let right = match &constraint.right {
+            Limit::AtMost(limit) => Limit::AtMost(written(limit)?),
+            Limit::AtLeast(limit) => Limit::AtLeast(written(limit)?),
+            Limit::Equal(value) => Limit::Equal(written(value)?),
+            Limit::Between(lower, upper) => Limit::Between(written(lower)?, written(upper)?),
+        };
+        Some(Constraint { scope, left: written(&constraint.left)?, right, ..constraint.clone() })
+    }
+
     /// A fold over items written out, one formula per item; `None` where they are the members of a group that is not known.
     pub fn instances(&self, collection: Collection, members: &Members, body: &Formula) -> Option<Vec<Formula>> {
         let one = |index: u32| self.instance(body, Item::of(collection, index), &[]);
@@ -58,6 +80,21 @@ impl Problem {
             Members::All => (0..self.count(collection)).map(one).collect(),
             Members::Listed(list) => list.iter().copied().map(one).collect(),
             Members::Group(_) => None,
+        }
+    }
+}
+
+impl Scope {
+    /// The item that row `at` is stated for, and the members of its group.
+    pub fn item(&self, at: usize) -> (Item, &[u32]) {
+        match self {
+            Scope::Once => (Item::None, &[]),
+            Scope::Sections(items) => (Item::Section(items[at]), &[]),
+            Scope::Ribs(items) => (Item::Rib(items[at]), &[]),
+            Scope::Nodes(items) => (Item::Node(items[at]), &[]),
+            Scope::RibGroups(groups) => (groups[at].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), &groups[at].1),
+            Scope::SectionGroups(groups) => (groups[at].1.first().map_or(Item::None, |&s| Item::Section(s)), &groups[at].1),
+            Scope::NodeGroups(groups) => (groups[at].1.first().map_or(Item::None, |&node| Item::Node(node)), &groups[at].1),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
 pub mod affine;
+pub mod axial;
 pub mod cells;
 mod collections;
 mod constraint;
@@ -28,6 +29,7 @@ pub mod settings;
 pub mod statics;
 pub mod structure;
 pub mod texts;
+pub mod vanishing;
 pub mod words;
 
 use std::sync::Arc;

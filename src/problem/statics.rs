@@ -76,8 +76,9 @@ impl Statics {
         let structure = problem.structure.as_deref()?;
         let mut members: Vec<Prepared> = structure.members.iter().map(|member| prepare(problem, structure, member)).collect();
         for (number, load) in structure.loads.iter().enumerate() {
-            if let Some(member) = load.action.member().and_then(|member| members.get_mut(member as usize)) {
-                member.loads.push(number as u32);
+            let present = |member: &u32| structure.members.get(*member as usize).is_some_and(|member| !member.absent);
+            if let Some(member) = load.action.member().filter(present) {
+                members[member as usize].loads.push(number as u32);
             }
         }
         let mut loads_at = vec![Vec::new(); structure.nodes.names.len()];
@@ -93,7 +94,7 @@ impl Statics {
         }
         let nodes = structure.nodes.names.len();
         let mut members_at = vec![Vec::new(); nodes];
-        for (number, member) in structure.members.iter().enumerate() {
+        for (number, member) in structure.members.iter().enumerate().filter(|(_, member)| !member.absent) {
             members_at[member.start as usize].push(number as u32);
             members_at[member.end as usize].push(number as u32);
         }
@@ -184,7 +185,7 @@ fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::
     let frame = frame(&mut Numbers, along, rule, member.roll);
     let rows = rows(&mut Numbers, &frame, member.offset);
     let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
-    let fixed = ends.iter().all(|&node| structure.nodes.position[node as usize].iter().all(constant));
+    let fixed = member.absent || ends.iter().all(|&node| structure.nodes.position[node as usize].iter().all(constant));
     let components = components(structure.plane, member, &rows);
     let by_forces = fixed && !member.pinned && has_constant_moduli(structure, member.material);
     let grading = graded(steepest(problem, member.rib));
@@ -210,7 +211,7 @@ pub(super) fn components(plane: Plane, member: &super::structure::Member, rows: 
     let directions = plane.directions();
     std::array::from_fn(|component| {
         let works = (0..12).any(|at| directions[at % 6] && rows[component][at].abs() > 1e-12);
-        works && !released[component]
+        works && !released[component] && !member.absent
     })
 }
 

@@ -153,6 +153,8 @@ pub struct Member {
     pub offset: [[f64; 3]; 2],
     /// Whether shear deforms it (Timoshenko).
     pub shear: bool,
+    /// Left out of the analysis: its area has vanished.
+    pub absent: bool,
 }
 
 /// Forces released at an end.

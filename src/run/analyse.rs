@@ -6,13 +6,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{RunError, Subject};
-use crate::model::structural::mechanism;
-use crate::model::{Assembled, EvaluationError, assemble_any};
+use crate::model::{Assembled, AssemblyError, EvaluationError, assemble_any};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
 use crate::report::text::listing;
-use responses::responses;
-pub use responses::{CaseResponses, Extreme, ResponsesError};
+use responses::Responses;
+pub use responses::{CaseResponses, Extreme};
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -45,9 +44,9 @@ pub enum AnalysisError {
     /// There is no value.
     #[error("{0}")]
     Value(#[from] EvaluationError),
-    /// Of some response.
+    /// The model is too large.
     #[error(transparent)]
-    Responses(#[from] ResponsesError),
+    Assembly(#[from] AssemblyError),
 }
 
 /// Analyses the structure at an answer, or at the start.
@@ -60,10 +59,11 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         None => subject.shown().meta().start.clone(),
     };
     let problem = subject.problem();
-    if let Some(words) = mechanism(&Arc::new(problem.clone()), &x).map_err(|error| RunError::Choice(error.to_string()))? {
+    let responses = Responses::of(problem)?;
+    if let Some(words) = responses.as_ref().map(|all| all.mechanism(&x)).transpose()?.flatten() {
         return Err(AnalysisError::Mechanism(words));
     }
-    let assembled = of_definitions(problem).map_err(|error| RunError::Choice(error.to_string()))?;
+    let assembled = of_definitions(problem)?;
     let model = assembled.model();
     let mut values = vec![0.0; model.meta().rows()];
     model.constraints(&x, &mut values)?;
@@ -79,10 +79,10 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         }
         analysis.variables = (0..x.len()).map(|j| model.variable_name(j)).collect();
     }
-    analysis.cases = responses(problem, &x)?;
     analysis.remarks = remarks(subject, &x);
-    if let Assembled::Structure(reduced) = &assembled {
-        analysis.equilibrium_residual = reduced.residual(&x)?;
+    if let Some(responses) = &responses {
+        analysis.cases = responses.by_case(&x)?;
+        analysis.equilibrium_residual = responses.residual(&x)?;
     }
     analysis.x = x;
     Ok(analysis)
@@ -105,7 +105,7 @@ fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
 }
 
 /// The problem with one row per definition.
-fn of_definitions(problem: &Problem) -> Result<Assembled, crate::model::AssemblyError> {
+fn of_definitions(problem: &Problem) -> Result<Assembled, AssemblyError> {
     let row = |at: usize| Constraint {
         name: problem.definitions[at].0.clone(),
         detail: Box::default(),

@@ -3,9 +3,9 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::unobserved::unobserved;
 use super::{Choice, Subject};
-use crate::backends::Iteration;
-use crate::crosscheck::{self, Outcome, Task};
+use crate::crosscheck::{Outcome, Task};
 use crate::model::views::bounds_only::BoundsOnly;
 use crate::model::{EvaluationError, Model};
 use crate::problem::{Origin, Problem};
@@ -47,9 +47,7 @@ pub fn bounds(subject: &Subject, choices: &[Choice], interrupt: Option<&AtomicBo
         starts: 1,
         interrupt,
     };
-    let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
-    let mut unobserved = |_: usize, _: &str| -> Box<dyn FnMut(&Iteration<'_>)> { Box::new(|_: &Iteration<'_>| {}) };
-    let outcome = crosscheck::run(&task, &backends, &mut unobserved);
+    let outcome = unobserved(&task, choices);
     let ends = ends(&model, &outcome.x, subject.sign()).map(|mut ends| {
         for (j, end) in ends.iter_mut().enumerate() {
             end.reason = reason(subject.problem(), j, end);

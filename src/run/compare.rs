@@ -6,8 +6,8 @@ use std::time::Instant;
 use super::Subject;
 use super::choice::{self, Choice};
 use super::present::present;
-use crate::backends::Iteration;
-use crate::crosscheck::{self, Task};
+use super::unobserved::unobserved;
+use crate::crosscheck::Task;
 use crate::problem::Settings;
 use crate::report::comparison::{Trial, mark_solved};
 
@@ -51,19 +51,8 @@ fn refused(subject: &Subject, choice: &Choice, message: String) -> Trial {
 
 fn run(subject: &Subject, choice: &Choice, max_seconds: f64, interrupt: Option<&AtomicBool>) -> Trial {
     let settings = Settings { max_seconds, ..subject.settings.clone() };
-    let task = Task {
-        model: subject.model(),
-        substitution: subject.substitution(),
-        class: subject.class(),
-        settings: &settings,
-        start: &subject.model().meta().start,
-        start_multipliers: None,
-        starts: 1,
-        interrupt,
-    };
-    let backends = [(choice.backend, choice.algorithm.as_str())];
-    let mut unobserved = |_: usize, _: &str| -> Box<dyn FnMut(&Iteration<'_>)> { Box::new(|_: &Iteration<'_>| {}) };
-    let outcome = present(subject, crosscheck::run(&task, &backends, &mut unobserved));
+    let task = Task { settings: &settings, ..subject.task(&subject.model().meta().start, interrupt) };
+    let outcome = present(subject, unobserved(&task, std::slice::from_ref(choice)));
     let solution = outcome.answers.first().map(|answer| &answer.solution);
     Trial {
         file: subject.about.file.clone(),

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::analyse::responses::{ResponsesError, carrying, grounded};
+use super::analyse::responses::{carrying, grounded};
 use super::{MOST_LISTED, Subject};
-use crate::model::{Assembled, Model, assemble_any};
+use crate::model::{AssemblyError, EvaluationError, Lifted, Model, Reduced};
 use crate::problem::evaluate::Evaluation;
 use crate::problem::formula::{Response, Subject as Of, What};
 use crate::problem::statics::Statics;
@@ -30,8 +30,8 @@ const JUMP: f64 = 1e-6;
 /// The courses at x; `None` without a structure or a case, and where there would be more than [`MOST_LISTED`] places.
 ///
 /// # Errors
-/// As [`super::analyse::responses::responses`].
-pub(super) fn courses(subject: &Subject, x: &[f64]) -> Result<Option<Courses>, ResponsesError> {
+/// A term that is too dense, or a response without a value.
+pub(super) fn courses(subject: &Subject, x: &[f64]) -> Result<Option<Courses>, CoursesError> {
     let problem = subject.problem();
     let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else { return Ok(None) };
     let sets = structure.load_sets();
@@ -51,6 +51,17 @@ pub(super) fn courses(subject: &Subject, x: &[f64]) -> Result<Option<Courses>, R
     displace(structure, &deflections, &mut courses);
     courses.without_rounding();
     Ok(Some(courses))
+}
+
+/// Why there are none.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CoursesError {
+    /// The model is too large.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    /// There is no value.
+    #[error(transparent)]
+    Value(#[from] EvaluationError),
 }
 
 /// Fine ones where the structure is small, and on either side of point loads; else the file's; none where there were too many places.
@@ -169,11 +180,11 @@ impl Asked {
         structure: &Structure,
         x: &[f64],
         courses: &mut Courses,
-    ) -> Result<Deflections, ResponsesError> {
+    ) -> Result<Deflections, CoursesError> {
         let mut deflections = vec![vec![[0.0; 2]; structure.members.len() * courses.stations.len()]; courses.cases.len()];
         let (objective, auxiliaries) = (Formula::default(), Vec::new());
         let asked = Problem { constraints: self.constraints, objective, auxiliaries, ..problem.clone() };
-        let Assembled::Structure(model) = assemble_any(&Arc::new(asked))? else { return Ok(deflections) };
+        let Some(model) = Reduced::of(Lifted::of(&Arc::new(asked))?, false) else { return Ok(deflections) };
         let mut values = vec![0.0; model.meta().rows()];
         model.constraints(&x[..model.meta().variables().min(x.len())], &mut values)?;
         let inner = model.lifted().inner();

@@ -1,6 +1,7 @@
 //! One run, start to finish: read, assemble, solve, certify, compare, leave the files.
 
 pub mod analyse;
+mod bounded;
 pub mod bounds;
 pub mod check;
 pub mod choice;
@@ -18,9 +19,12 @@ pub mod section;
 pub mod sizes;
 mod sizing;
 pub mod solve;
+mod strongest;
 pub mod structure_files;
-mod subject;
+pub mod subject;
+pub(crate) mod unobserved;
 pub mod utilisation;
+mod vanished;
 pub mod verify;
 
 use thiserror::Error;

@@ -3,15 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
 use super::courses::courses;
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::results::{Ending, Results};
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, structure_files, utilisation};
-use crate::backends::Backend;
-use crate::crosscheck::{self, Outcome, Status, Task};
+use super::unobserved::unobserved;
+use super::vanished::settle;
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation};
+use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
@@ -88,16 +90,18 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     about.warnings.extend(results.belongs_to_another(&about.file, &about.sha256));
     let records = Records::open(subject, &request.choices, &results)?;
     let task = Task {
-        model: subject.model(),
-        substitution: subject.substitution(),
-        class: subject.class(),
-        settings: &subject.settings,
-        start: &start,
         start_multipliers: start_multipliers.as_deref(),
         starts: request.starts,
-        interrupt: request.interrupt,
+        ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, request.interrupt));
+    if let Some(settled) = &settled {
+        outcome = settled.outcome.clone();
+    }
+    bound_below(subject, &mut outcome, request.interrupt);
+    strongest::explain(subject, &mut outcome);
+    let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
@@ -145,23 +149,18 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
     let choices = choose(&[], None, &subject.settings)?;
     refuse_if_none_accepts(&choices, subject.model())?;
     let start = subject.model().meta().start.clone();
-    let task = Task {
-        model: subject.model(),
-        substitution: subject.substitution(),
-        class: subject.class(),
-        settings: &subject.settings,
-        start: &start,
-        start_multipliers: None,
-        starts: 1,
-        interrupt: None,
-    };
-    Ok(present(subject, unobserved(&task, &choices)))
+    let outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, None));
+    let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
+    bound_below(subject, &mut outcome, None);
+    strongest::explain(subject, &mut outcome);
+    Ok(outcome)
 }
 
-/// A run that nobody watches.
-pub(crate) fn unobserved(task: &Task<'_>, choices: &[Choice]) -> Outcome {
-    let backends: Vec<(&dyn Backend, &str)> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
-    crosscheck::run(task, &backends, &mut |_, _| Box::new(|_| {}))
+/// One start of every backend from a point of the user's variables.
+fn nearby(subject: &Subject, x: &[f64], choices: &[Choice], interrupt: Option<&AtomicBool>) -> Outcome {
+    let start = subject.completed(x.to_vec());
+    present(subject, unobserved(&subject.task(&start, interrupt), choices))
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::{RunError, plausible};
+use crate::crosscheck::Task;
 use crate::files::Inputs;
 use crate::input::{self, Progress};
 use crate::model::structural::mechanism;
@@ -89,6 +91,20 @@ impl Subject {
         Ok(Subject { about, settings, inputs: Inputs::new([file.into()]), warnings: Vec::new(), formulation })
     }
 
+    /// The same file's problem after a change, with all that was said and set.
+    ///
+    /// # Errors
+    /// Where its second derivatives do not fit.
+    pub fn with_problem(&self, problem: Problem) -> Result<Subject, AssemblyError> {
+        Ok(Subject {
+            about: self.about.clone(),
+            settings: self.settings.clone(),
+            inputs: self.inputs.clone(),
+            warnings: Vec::new(),
+            formulation: formulate(problem)?,
+        })
+    }
+
     /// What is proved about the problem.
     pub fn class(&self) -> Class {
         self.formulation.class
@@ -122,6 +138,20 @@ impl Subject {
         self.formulation.shown.problem()
     }
 
+    /// One run from this start, which has the model's variables.
+    pub fn task<'a>(&'a self, start: &'a [f64], interrupt: Option<&'a AtomicBool>) -> Task<'a> {
+        Task {
+            model: self.model(),
+            substitution: self.substitution(),
+            class: self.class(),
+            settings: &self.settings,
+            start,
+            start_multipliers: None,
+            starts: 1,
+            interrupt,
+        }
+    }
+
     /// The same in variables that are easier to solve in, where there are any.
     pub fn substitution(&self) -> Option<&dyn Substitution> {
         self.formulation.substitution.as_deref().map(|other| other as &dyn Substitution)
@@ -138,7 +168,7 @@ impl Subject {
     /// With the directions that meet no resistance.
     pub fn refuse_mechanism(&self) -> Result<(), RunError> {
         let Some(model) = self.analysis() else { return Ok(()) };
-        match mechanism(model.lifted().problem(), &model.meta().start) {
+        match mechanism(model.lifted(), &model.meta().start) {
             Ok(Some(words)) => Err(RunError::Choice(format!(
                 "the structure is a mechanism: {words}; support it there, or brace it with another rib"
             ))),

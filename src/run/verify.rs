@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::present::present;
+use super::vanished::without_vanished;
 use super::{RunError, Subject};
 use crate::certificate::{Certificate, Scope, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
@@ -13,7 +14,18 @@ use crate::report::answer::EarlierAnswer;
 /// # Errors
 /// Where the answer cannot be read or is not a point of this problem.
 pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
-    let x = subject.completed(EarlierAnswer::read(answer)?.point(subject.shown())?);
+    let point = EarlierAnswer::read(answer)?.point(subject.shown())?;
+    if let Some((rest, x, remark)) = without_vanished(subject, &point) {
+        let found = judged(&rest, &x);
+        let message = format!("{remark}. Of the structure without them: {}", found.message);
+        return Ok(Outcome { message, scope: Scope::Local, ..found });
+    }
+    Ok(judged(subject, &point))
+}
+
+/// What a point of the user's variables is.
+fn judged(subject: &Subject, point: &[f64]) -> Outcome {
+    let x = subject.completed(point.to_vec());
     let settings = &subject.settings;
     let tolerances = Tolerances { optimality: settings.optimality_tolerance, constraint: settings.constraint_tolerance };
     let outcome = match certify(subject.model(), subject.class(), &x, None, tolerances) {
@@ -28,7 +40,7 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
             ..Outcome::default()
         },
     };
-    Ok(present(subject, outcome))
+    present(subject, outcome)
 }
 
 fn message(certificate: &Certificate, sign: f64) -> String {

@@ -59,6 +59,20 @@ pub fn classify(model: &RibModel) -> Result<Classification, AssemblyError> {
     Ok(Classification { class, logarithmic, not_geometric, not_convex })
 }
 
+/// Which constraints are shown to be convex; `None` where the objective is not.
+///
+/// # Errors
+/// As [`super::assemble`].
+pub fn convex_constraints(problem: &Arc<Problem>) -> Result<Option<Vec<bool>>, AssemblyError> {
+    let facts = Dependence::of(problem);
+    let judge = Judge { problem, facts: &facts };
+    if judge.not_convex_objective()?.is_some() {
+        return Ok(None);
+    }
+    let convex = |constraint: &Constraint| Ok(judge.not_convex_constraint(constraint)?.is_none());
+    problem.constraints.iter().map(convex).collect::<Result<_, _>>().map(Some)
+}
+
 struct Judge<'a> {
     problem: &'a Arc<Problem>,
     facts: &'a Dependence,
@@ -101,26 +115,35 @@ impl Judge<'_> {
 
     /// Why the problem is not convex; `None` where it is.
     fn not_convex(&self) -> Result<Option<String>, AssemblyError> {
+        if let Some(reason) = self.not_convex_objective()? {
+            return Ok(Some(reason));
+        }
+        for constraint in &self.problem.constraints {
+            if let Some(reason) = self.not_convex_constraint(constraint)? {
+                return Ok(Some(reason));
+            }
+        }
+        Ok(None)
+    }
+
+    fn not_convex_objective(&self) -> Result<Option<String>, AssemblyError> {
         let survey = self.objective(&self.problem.objective)?;
         let wanted = match self.problem.sense {
             Sense::Minimize => Wanted::Convex,
             Sense::Maximize => Wanted::Concave,
         };
-        if !holds(wanted, survey.bend()) {
-            return Ok(Some(words("the objective", &survey, wanted)));
-        }
-        for constraint in &self.problem.constraints {
-            let survey = self.rows(constraint, &constraint.left)?;
-            let wanted: &[Wanted] = match constraint.right {
-                Limit::AtMost(_) => &[Wanted::Convex],
-                Limit::AtLeast(_) => &[Wanted::Concave],
-                Limit::Equal(_) | Limit::Between(..) => &[Wanted::Convex, Wanted::Concave],
-            };
-            if let Some(&missing) = wanted.iter().find(|&&wanted| !holds(wanted, survey.bend())) {
-                return Ok(Some(words(&format!("constraint {}", constraint.name), &survey, missing)));
-            }
-        }
-        Ok(None)
+        Ok((!holds(wanted, survey.bend())).then(|| words("the objective", &survey, wanted)))
+    }
+
+    fn not_convex_constraint(&self, constraint: &Constraint) -> Result<Option<String>, AssemblyError> {
+        let survey = self.rows(constraint, &constraint.left)?;
+        let wanted: &[Wanted] = match constraint.right {
+            Limit::AtMost(_) => &[Wanted::Convex],
+            Limit::AtLeast(_) => &[Wanted::Concave],
+            Limit::Equal(_) | Limit::Between(..) => &[Wanted::Convex, Wanted::Concave],
+        };
+        let missing = wanted.iter().find(|&&wanted| !holds(wanted, survey.bend()));
+        Ok(missing.map(|&missing| words(&format!("constraint {}", constraint.name), &survey, missing)))
     }
 
     /// The rows as ratios, or why the problem is no geometric program.

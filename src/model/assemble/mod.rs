@@ -40,7 +40,7 @@ use super::{Meta, Model, NameTable, Pattern};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Limit, Problem, Scope, Sense};
 use accumulate::{Summation, Templates};
-pub use classify::{Classification, classify};
+pub use classify::{Classification, classify, convex_constraints};
 use dependence::Dependence;
 use expression_graph::{Context, Item};
 use kernel_groups::{Groups, Kernels};

@@ -4,20 +4,18 @@
 //! λ = −K⁻¹·(w·f_u + c_uᵀy), and the Hessian of the Lagrangian is L_xx + L_xu·U + (L_xu·U)ᵀ + Uᵀ·L_uu·U at L = w·f + yᵀc + λᵀR
 //! (Haftka and Gürdal, *Elements of Structural Optimization*, ch. 7).
 
-mod solve;
-
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use crate::model::states::{States, WithStates};
+use crate::model::states::States;
+use crate::model::stiffness::Factors;
+use crate::model::with_states::WithStates;
 use crate::model::{EvaluationError, Meta, Model, Own, Pattern, auxiliaries};
-pub use solve::{Factors, Mechanism, Stiffness};
 
 /// A model without its states.
 pub struct Reduced<M> {
     lifted: M,
     meta: Meta,
     states: States,
-    stiffness: Stiffness,
     latest: Mutex<Option<Arc<Analysed>>>,
 }
 
@@ -54,8 +52,7 @@ impl<M: WithStates> Reduced<M> {
             hessian: if derivatives { dense_lower(n) } else { Pattern::from_positions(n, &mut Vec::new()) },
             ..Meta::default()
         };
-        let stiffness = Stiffness::of(own, states);
-        Some(Reduced { lifted, meta, states, stiffness, latest: Mutex::new(None) })
+        Some(Reduced { lifted, meta, states, latest: Mutex::new(None) })
     }
 
     /// The model with its states.
@@ -80,39 +77,11 @@ impl<M: WithStates> Reduced<M> {
                 _ => latest.take().and_then(Arc::into_inner).map(|earlier| earlier.factors),
             }
         };
-        let (z, factors) = self.stiffness.solve_states(&self.lifted, x, earlier)?;
+        let (z, factors) = self.lifted.solve_states(x, earlier)?;
         let (jacobian, sensitivities) = (OnceLock::new(), OnceLock::new());
         let analysed = Arc::new(Analysed { x: x.to_vec(), z, factors, jacobian, sensitivities });
         *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&analysed));
         Ok(analysed)
-    }
-
-    /// The mechanism a design is, where it is one.
-    ///
-    /// # Errors
-    /// Where the model has no value.
-    pub fn mechanism(&self, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
-        self.stiffness.mechanism(&self.lifted, x)
-    }
-
-    /// The largest residual of a state equation at a design, over the largest sum of the sizes of one's terms.
-    ///
-    /// # Errors
-    /// As [`Reduced::solved`].
-    pub fn residual(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        let (z, meta) = (self.solved(x)?, self.lifted.meta());
-        let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
-        self.lifted.constraints(&z, &mut rows)?;
-        self.lifted.jacobian(&z, &mut jacobian)?;
-        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for (row, &value) in rows.iter().enumerate().skip(self.states.first_row) {
-            let of_state = |at: &usize| meta.jacobian.columns[*at] as usize >= self.states.first_variable;
-            let terms =
-                meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
-            worst = worst.max((value - meta.row_upper[row]).abs());
-            largest = largest.max(terms.sum::<f64>() + meta.row_upper[row].abs());
-        }
-        Ok(if largest > 0.0 { worst / largest } else { 0.0 })
     }
 
     /// The lifted Jacobian at an analysed design.
@@ -245,6 +214,38 @@ fn dense_lower(n: usize) -> Pattern {
     Pattern::from_positions(n, &mut positions)
 }
 
+/// [I U]ᵀ·H·[I; U] for the lower triangle of H over design and states, as a dense lower triangle by rows.
+fn congruence(pattern: &Pattern, hessian: &[f64], columns: &[Vec<f64>], values: &mut [f64]) {
+    let n = columns.len();
+    values.fill(0.0);
+    let triangle = |row: usize, column: usize| row.max(column) * (row.max(column) + 1) / 2 + row.min(column);
+    // H·[I; U]: products of every state row, then of the mixed ones.
+    let states = pattern.rows() - n;
+    let mut through = vec![vec![0.0; states]; n];
+    for (at, (row, column)) in pattern.iter().enumerate() {
+        let value = hessian[at];
+        match (row.checked_sub(n), column.checked_sub(n)) {
+            (None, _) => values[triangle(row, column)] += value,
+            (Some(state), None) => through[column][state] += value,
+            (Some(left), Some(right)) => {
+                for (j, column) in columns.iter().enumerate() {
+                    // Half of Uᵀ·L_uu·U: the other half comes with the transposed product below.
+                    through[j][left] += 0.5 * value * column[right];
+                    if left != right {
+                        through[j][right] += 0.5 * value * column[left];
+                    }
+                }
+            }
+        }
+    }
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for i in 0..n {
+        for j in 0..=i {
+            values[triangle(i, j)] += dot(&through[i], &columns[j]) + dot(&through[j], &columns[i]);
+        }
+    }
+}
+
 impl<M: WithStates> Model for Reduced<M> {
     fn meta(&self) -> &Meta {
         &self.meta
@@ -290,7 +291,7 @@ impl<M: WithStates> Model for Reduced<M> {
         let all: Vec<f64> = y.iter().chain(&multipliers).copied().collect();
         let mut hessian = vec![0.0; meta.hessian.len()];
         self.lifted.hessian(&point.z, weight, &all, &mut hessian)?;
-        solve::congruence(&meta.hessian, &hessian, self.sensitivities(&point)?, values);
+        congruence(&meta.hessian, &hessian, self.sensitivities(&point)?, values);
         Ok(())
     }
 

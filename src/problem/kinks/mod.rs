@@ -118,7 +118,8 @@ impl Restating {
         if constraint.scope.rows() > MOST_ITEMS {
             return vec![constraint];
         }
-        let single: Option<Vec<Constraint>> = (0..constraint.scope.rows()).map(|at| self.one_item(&constraint, at)).collect();
+        let single: Option<Vec<Constraint>> =
+            (0..constraint.scope.rows()).map(|at| self.problem.one_row(&constraint, at)).collect();
         let Some(single) = single else { return vec![constraint] };
         single
             .into_iter()

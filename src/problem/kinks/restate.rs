@@ -89,27 +89,11 @@ impl Restating {
 
     /// Pieces of a constraint that is repeated, where no auxiliary is needed for any of its items.
     pub fn pieces_of_items(&mut self, constraint: &Constraint, upward: bool) -> Option<Vec<Formula>> {
-        self.items = (0..constraint.scope.rows()).map(|at| item(&constraint.scope, at).0).collect();
+        self.items = (0..constraint.scope.rows()).map(|at| constraint.scope.item(at).0).collect();
         self.may_add = false;
         let pieces = self.pieces(&constraint.left, upward, false);
         (self.items, self.may_add) = (vec![Item::None], true);
         (!pieces.iter().any(|piece| self.has_kinks(piece))).then_some(pieces)
-    }
-
-    /// One row of a repeated constraint, its left side written out.
-    pub fn one_item(&self, constraint: &Constraint, at: usize) -> Option<Constraint> {
-        let (item, group) = item(&constraint.scope, at);
-        let scope = match &constraint.scope {
-            Scope::Once => Scope::Once,
-            Scope::Sections(items) => Scope::Sections(vec![items[at]]),
-            Scope::Ribs(items) => Scope::Ribs(vec![items[at]]),
-            Scope::RibGroups(groups) => Scope::RibGroups(vec![groups[at].clone()]),
-            Scope::SectionGroups(groups) => Scope::SectionGroups(vec![groups[at].clone()]),
-            Scope::Nodes(items) => Scope::Nodes(vec![items[at]]),
-            Scope::NodeGroups(groups) => Scope::NodeGroups(vec![groups[at].clone()]),
-        };
-        let left = self.problem.instance(&constraint.left, item, group)?;
-        Some(Constraint { scope, left, ..constraint.clone() })
     }
 
     /// The problem with the auxiliaries and their constraints at the end.
@@ -192,19 +176,6 @@ impl Restating {
             }
             _ => None,
         }
-    }
-}
-
-/// The item and the group of a repeated constraint's row.
-fn item(scope: &Scope, at: usize) -> (Item, &[u32]) {
-    match scope {
-        Scope::Once => (Item::None, &[]),
-        Scope::Sections(items) => (Item::Section(items[at]), &[]),
-        Scope::Ribs(items) => (Item::Rib(items[at]), &[]),
-        Scope::RibGroups(groups) => (groups[at].1.first().map_or(Item::None, |&rib| Item::Rib(rib)), &groups[at].1),
-        Scope::SectionGroups(groups) => (groups[at].1.first().map_or(Item::None, |&s| Item::Section(s)), &groups[at].1),
-        Scope::Nodes(items) => (Item::Node(items[at]), &[]),
-        Scope::NodeGroups(groups) => (groups[at].1.first().map_or(Item::None, |&node| Item::Node(node)), &groups[at].1),
     }
 }
 

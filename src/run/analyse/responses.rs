@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::model::{Assembled, AssemblyError, EvaluationError, Lifted, Model, Reduced, assemble_any};
+use crate::model::structural::mechanism;
+use crate::model::{AssemblyError, EvaluationError, Lifted, Model, Reduced};
 use crate::problem::formula::{Response, Subject, What};
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Plane, Structure};
@@ -51,36 +52,86 @@ enum Row {
     Stress(u32, f64, &'static str),
 }
 
-/// The structure's responses at x.
-///
-/// # Errors
-/// As the model's evaluation; assembling fails where a term is too dense.
-pub fn responses(problem: &Problem, x: &[f64]) -> Result<Vec<CaseResponses>, ResponsesError> {
-    let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else {
-        return Ok(Vec::new());
-    };
-    let mut rows = Vec::new();
-    let mut constraints = Vec::new();
-    for set in 0..structure.load_sets() as u32 {
-        list(problem, structure, statics, set, &mut rows, &mut constraints);
-    }
-    let asked = Problem { constraints, objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
-    let Assembled::Structure(model) = assemble_any(&Arc::new(asked))? else { return Ok(Vec::new()) };
-    let own = &x[..model.meta().variables().min(x.len())];
-    let mut values = vec![0.0; model.meta().rows()];
-    model.constraints(own, &mut values)?;
-    Ok(collected(structure, &model, &rows, &values))
+/// The model of every response.
+pub struct Responses {
+    model: Reduced<Lifted>,
+    rows: Vec<Row>,
 }
 
-/// Why there are no responses.
-#[derive(Debug, thiserror::Error)]
-pub enum ResponsesError {
-    /// The model.
-    #[error(transparent)]
-    Assembly(#[from] AssemblyError),
-    /// Its values.
-    #[error(transparent)]
-    Value(#[from] EvaluationError),
+impl Responses {
+    /// The model; `None` where there is no structure, or none that can move.
+    ///
+    /// # Errors
+    /// A term is too dense.
+    pub fn of(problem: &Problem) -> Result<Option<Self>, AssemblyError> {
+        let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else {
+            return Ok(None);
+        };
+        let mut rows = Vec::new();
+        let mut constraints = Vec::new();
+        for set in 0..structure.load_sets() as u32 {
+            list(problem, structure, statics, set, &mut rows, &mut constraints);
+        }
+        let asked = Problem { constraints, objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
+        let model = Reduced::of(Lifted::of(&Arc::new(asked))?, false);
+        Ok(model.map(|model| Responses { model, rows }))
+    }
+
+    /// How the structure moves without resistance, in words; `None` where it does not.
+    ///
+    /// # Errors
+    /// The state equations have no value.
+    pub fn mechanism(&self, x: &[f64]) -> Result<Option<String>, EvaluationError> {
+        mechanism(self.model.lifted(), x)
+    }
+
+    /// The responses of every case and combination.
+    ///
+    /// # Errors
+    /// Some response has no value.
+    pub fn by_case(&self, x: &[f64]) -> Result<Vec<CaseResponses>, EvaluationError> {
+        let mut values = vec![0.0; self.model.meta().rows()];
+        self.model.constraints(x, &mut values)?;
+        Ok(self.collected(&values))
+    }
+
+    /// The largest residual of an equilibrium equation over the largest sum of the sizes of one's terms.
+    ///
+    /// # Errors
+    /// The state equations have no value.
+    pub fn residual(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+        self.model.lifted().residual(&self.model.solved(x)?)
+    }
+
+    fn collected(&self, values: &[f64]) -> Vec<CaseResponses> {
+        let asked = self.model.lifted().problem();
+        let Some(structure) = asked.structure.as_deref() else { return Vec::new() };
+        let named = |set: u32| CaseResponses { name: structure.load_set_name(set).to_owned(), ..CaseResponses::default() };
+        let mut cases: Vec<CaseResponses> = (0..structure.load_sets() as u32).map(named).collect();
+        let mut known = Known::new();
+        let inner = self.model.lifted().inner();
+        for (at, &value) in values.iter().enumerate() {
+            let origin = inner.row_origin(at);
+            let item = match &asked.constraints[origin.constraint as usize].scope {
+                Scope::Nodes(items) | Scope::Ribs(items) => items[origin.item as usize],
+                _ => continue,
+            };
+            match self.rows[origin.constraint as usize] {
+                Row::Displacement(set, direction) => cases[set as usize].displacements.push((item, direction, value)),
+                Row::Reaction(set, direction) => cases[set as usize].reactions.push((item, direction, value)),
+                Row::Force(set, of, station) => {
+                    widen(&mut known, (set, item, of), &mut cases[set as usize].forces, (value, station, ""));
+                }
+                Row::Stress(set, station, point) => {
+                    widen(&mut known, (set, item, ""), &mut cases[set as usize].stresses, (value, station, point));
+                }
+            }
+        }
+        cases.iter_mut().for_each(without_rounding);
+        cases.iter_mut().for_each(|case| case.displacements.sort_by_key(|&(node, direction, _)| (node, direction)));
+        cases.iter_mut().for_each(|case| case.reactions.sort_by_key(|&(node, direction, _)| (node, direction)));
+        cases
+    }
 }
 
 fn list(
@@ -164,34 +215,6 @@ fn points(problem: &Problem, structure: &Structure) -> Vec<(&'static str, Vec<u3
         }
     }
     list
-}
-
-fn collected(structure: &Structure, model: &Reduced<Lifted>, rows: &[Row], values: &[f64]) -> Vec<CaseResponses> {
-    let named = |set: u32| CaseResponses { name: structure.load_set_name(set).to_owned(), ..CaseResponses::default() };
-    let mut cases: Vec<CaseResponses> = (0..structure.load_sets() as u32).map(named).collect();
-    let mut known = Known::new();
-    let (inner, asked) = (model.lifted().inner(), &model.lifted().problem().constraints);
-    for (at, &value) in values.iter().enumerate() {
-        let origin = inner.row_origin(at);
-        let item = match &asked[origin.constraint as usize].scope {
-            Scope::Nodes(items) | Scope::Ribs(items) => items[origin.item as usize],
-            _ => continue,
-        };
-        match rows[origin.constraint as usize] {
-            Row::Displacement(set, direction) => cases[set as usize].displacements.push((item, direction, value)),
-            Row::Reaction(set, direction) => cases[set as usize].reactions.push((item, direction, value)),
-            Row::Force(set, of, station) => {
-                widen(&mut known, (set, item, of), &mut cases[set as usize].forces, (value, station, ""));
-            }
-            Row::Stress(set, station, point) => {
-                widen(&mut known, (set, item, ""), &mut cases[set as usize].stresses, (value, station, point));
-            }
-        }
-    }
-    cases.iter_mut().for_each(without_rounding);
-    cases.iter_mut().for_each(|case| case.displacements.sort_by_key(|&(node, direction, _)| (node, direction)));
-    cases.iter_mut().for_each(|case| case.reactions.sort_by_key(|&(node, direction, _)| (node, direction)));
-    cases
 }
 
 /// What rounding leaves of a zero, relative to the largest value of its kind in the structure.

@@ -47,7 +47,7 @@ impl Assembly<'_> {
             entry.offset.each_ref().map(|arm| arm.as_ref().and_then(|arm| self.along(arm, "offset")).unwrap_or_default());
         let (Some(start), Some(end), Some(material)) = (start, end, material) else { return };
         let pinned = pinned.unwrap_or(false);
-        let member = Member { rib: r, start, end, material, up, roll, pinned, hinges, offset, shear: entry.shear };
+        let member = Member { rib: r, start, end, material, up, roll, pinned, hinges, offset, shear: entry.shear, absent: false };
         let number = self.building.structure.members.len() as u32;
         self.building.structure.members.push(member);
         let of_rib = &mut self.building.structure.member_of_rib;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::canvas::{Canvas, Ink, Style, cut, through};
 use super::drawing::{Drawing, line_width};
 use super::labels::{self, LETTER, Label};
-use super::{MARGIN, NAME, TOP, WIDTH, chosen, of_cases};
+use super::{MANY_RIBS, MARGIN, NAME, TOP, WIDTH, chosen, of_cases};
 use crate::problem::structure::Plane;
 use crate::report::About;
 use crate::report::number::significant;
@@ -17,14 +17,11 @@ const COLUMNS: usize = 3;
 /// The largest ordinate, in pixels.
 const DRAWN: f64 = 34.0;
 
-/// Structures with more ribs than this are drawn as lines whose widths are the forces.
-const MANY: usize = 150;
-
 /// The widest of these lines.
 const WIDEST: f64 = 7.0;
 
-/// Numbers in a panel.
-const MOST_LABELS: usize = 10;
+/// Numbers in a panel, and in one of many ribs.
+const MOST_LABELS: [usize; 2] = [10, 4];
 
 /// Forces below this share of the largest of their kind in a case are rounding.
 const NOTHING: f64 = 1e-9;
@@ -60,7 +57,7 @@ pub fn forces(courses: &Courses, about: &About) -> Option<String> {
 }
 
 fn legend(courses: &Courses, shown: &[usize]) -> &'static str {
-    match (courses.members.len() > MANY, shown) {
+    match (courses.members.len() > MANY_RIBS, shown) {
         (_, [0]) => "Blue: tension; orange: compression; width by size.",
         (true, _) => "Blue: positive; orange: negative; width by the largest value along the rib.",
         _ => "Blue: positive (N: tension); orange: negative. Moments stand on the side in tension.",
@@ -92,7 +89,7 @@ impl Panel<'_> {
         let sizes = case.forces.iter().map(|all| all[self.force].abs()).filter(|value| value.is_finite());
         let largest = if is_there(case, self.force) { sizes.fold(0.0, f64::max) } else { 0.0 };
         let (mut labels, mut lines) = (Vec::new(), Lines::new());
-        let as_widths = courses.members.len() > MANY || courses.members.iter().all(|member| member.pinned);
+        let as_widths = courses.members.len() > MANY_RIBS || courses.members.iter().all(|member| member.pinned);
         let thin = if as_widths { 0.5 } else { line_width(courses) };
         self.drawing.structure(canvas, self.corner, courses, Style::line(Ink::Middle, thin));
         for (number, member) in courses.members.iter().enumerate().filter(|_| largest > 0.0) {
@@ -106,7 +103,7 @@ impl Panel<'_> {
         for ((negative, tenths), data) in lines {
             canvas.path(&data, Style::line(ink(if negative { -1.0 } else { 1.0 }), f64::from(tenths) / 10.0));
         }
-        labels::write(canvas, labels, MOST_LABELS);
+        labels::write(canvas, labels, MOST_LABELS[usize::from(courses.members.len() > MANY_RIBS)]);
     }
 
     /// A rib as a line whose width and colour are its force of the largest size.

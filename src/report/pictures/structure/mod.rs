@@ -21,10 +21,17 @@ const NAME: f64 = 34.0;
 /// Cases and combinations, drawn at the most.
 const MOST_CASES: usize = 6;
 
+/// The same of structures with many ribs, whose pictures would be megabytes.
+const FEW_CASES: usize = 2;
+
+/// Structures with more ribs than this have many.
+const MANY_RIBS: usize = 150;
+
 /// Which are drawn: combinations before cases, for they are what limits speak of.
 fn chosen(courses: &Courses) -> Vec<usize> {
     let (cases, all) = (courses.simple_cases.min(courses.cases.len()), courses.cases.len());
-    (cases..all).chain(0..cases).take(MOST_CASES).collect()
+    let most = if courses.members.len() > MANY_RIBS { FEW_CASES } else { MOST_CASES };
+    (cases..all).chain(0..cases).take(most).collect()
 }
 
 /// `3 of 8 cases and combinations`.

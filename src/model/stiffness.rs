@@ -1,9 +1,11 @@
 //! The matrix ∂R/∂u of one block: factorised, solved with, and looked at for mechanisms.
+//!
+//! Everything here looks at the state equations alone, as the last rows of a model over design and states: other rows may have no value
+//! or no derivative where the search for the states begins, at u = 0 (the size of a displacement, √(u_x² + u_y²), has none there).
 
+use super::{EvaluationError, Meta, Model, States};
 use crate::linear_algebra::{Pattern, SymmetricSolver};
 use crate::math::split_mix::SplitMix;
-use crate::model::states::States;
-use crate::model::{EvaluationError, Meta, Model};
 
 /// A structure is a mechanism where the smallest eigenvalue of its stiffness, scaled to a unit diagonal, is below this: rounding leaves about
 /// 1e−16 of a zero; a chain of a thousand members in bending has 1e−12.
@@ -12,7 +14,7 @@ const SINGULAR: f64 = 1e-14;
 /// What is added to the scaled diagonal so that a singular matrix can be factorised for inverse iteration.
 const SHIFT: f64 = 1e-11;
 
-/// Where the block of the states stands: lower triangle by rows, and each value's place in the lifted Jacobian.
+/// Where the block of the states stands: lower triangle by rows, and each value's place in the Jacobian of the equations.
 pub struct Stiffness {
     states: States,
     pattern: Pattern,
@@ -38,8 +40,9 @@ fn failed(cause: impl ToString) -> EvaluationError {
 }
 
 impl Stiffness {
-    /// Where the block stands; nothing is evaluated.
+    /// Where the block stands in the model of these equations, whose last rows they are; nothing is evaluated.
     pub fn of(meta: &Meta, states: States) -> Self {
+        let states = States { first_row: meta.rows() - states.block * states.blocks, ..states };
         let (n, m) = (states.first_variable, states.first_row);
         let (mut positions, mut places) = (Vec::new(), Vec::new());
         if states.blocks > 0 {
@@ -55,9 +58,9 @@ impl Stiffness {
         Stiffness { states, pattern: Pattern::from_positions(states.block, &mut positions), places }
     }
 
-    fn values<M: Model>(&self, lifted: &M, z: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let mut jacobian = vec![0.0; lifted.meta().jacobian.len()];
-        lifted.jacobian(z, &mut jacobian)?;
+    fn values(&self, equations: &impl Model, z: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        let mut jacobian = vec![0.0; equations.meta().jacobian.len()];
+        equations.jacobian(z, &mut jacobian)?;
         Ok(self.places.iter().map(|&at| jacobian[at]).collect())
     }
 
@@ -84,15 +87,18 @@ impl Stiffness {
     }
 
     /// Design and states, and the factors they were found with.
-    pub fn solve_states<M: Model>(
+    ///
+    /// # Errors
+    /// Where the equations have no value, or the structure is a mechanism.
+    pub fn solve_states(
         &self,
-        lifted: &M,
+        equations: &impl Model,
         x: &[f64],
         earlier: Option<Factors>,
     ) -> Result<(Vec<f64>, Factors), EvaluationError> {
         let mut z = x.to_vec();
         z.resize(x.len() + self.states.block * self.states.blocks, 0.0);
-        let (scaled, scales) = self.scaled(self.values(lifted, &z)?);
+        let (scaled, scales) = self.scaled(self.values(equations, &z)?);
         let mut solver = self.solver(earlier)?;
         let inertia = solver.factor(&scaled).map_err(failed)?;
         if inertia.positive != self.states.block {
@@ -101,11 +107,11 @@ impl Stiffness {
         let factors = Factors { solver, scales };
         // R is linear in u: one step is exact but for rounding, which two more take away.
         for _ in 0..3 {
-            let mut rows = vec![0.0; lifted.meta().rows()];
-            lifted.constraints(&z, &mut rows)?;
+            let mut rows = vec![0.0; equations.meta().rows()];
+            equations.constraints(&z, &mut rows)?;
             let first = self.states.first_row;
             let mut step: Vec<f64> =
-                rows[first..].iter().zip(&lifted.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
+                rows[first..].iter().zip(&equations.meta().row_upper[first..]).map(|(row, load)| load - row).collect();
             factors.solve(&mut step)?;
             z[x.len()..].iter_mut().zip(&step).for_each(|(state, step)| *state += step);
         }
@@ -113,14 +119,17 @@ impl Stiffness {
     }
 
     /// The smallest eigenvalue's motion by inverse iteration, where it is none but for rounding.
-    pub fn mechanism<M: Model>(&self, lifted: &M, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
+    ///
+    /// # Errors
+    /// Where the equations have no value.
+    pub fn mechanism(&self, equations: &impl Model, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
         let order = self.states.block;
         let mut z = x.to_vec();
         z.resize(x.len() + order * self.states.blocks, 0.0);
         if order == 0 || self.states.blocks == 0 {
             return Ok(None);
         }
-        let (scaled, scales) = self.scaled(self.values(lifted, &z)?);
+        let (scaled, scales) = self.scaled(self.values(equations, &z)?);
         let mut shifted = scaled.clone();
         for (at, (row, column)) in self.pattern.iter().enumerate() {
             shifted[at] += if row == column { SHIFT } else { 0.0 };
@@ -144,10 +153,33 @@ impl Stiffness {
         motion.iter_mut().for_each(|value| *value /= largest);
         Ok(Some(Mechanism { motion }))
     }
+
+    /// The largest residual of an equation at design and states, over the largest sum of the sizes of one's terms.
+    ///
+    /// # Errors
+    /// Where the equations have no value.
+    pub fn residual(&self, equations: &impl Model, z: &[f64]) -> Result<f64, EvaluationError> {
+        let meta = equations.meta();
+        let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+        equations.constraints(z, &mut rows)?;
+        equations.jacobian(z, &mut jacobian)?;
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        for (row, &value) in rows.iter().enumerate().skip(self.states.first_row) {
+            let of_state = |at: &usize| meta.jacobian.columns[*at] as usize >= self.states.first_variable;
+            let terms =
+                meta.jacobian.range(row).filter(of_state).map(|at| (jacobian[at] * z[meta.jacobian.columns[at] as usize]).abs());
+            worst = worst.max((value - meta.row_upper[row]).abs());
+            largest = largest.max(terms.sum::<f64>() + meta.row_upper[row].abs());
+        }
+        Ok(if largest > 0.0 { worst / largest } else { 0.0 })
+    }
 }
 
 impl Factors {
     /// K⁻¹·right, block by block, in place.
+    ///
+    /// # Errors
+    /// Where the solver fails.
     pub fn solve(&self, right: &mut [f64]) -> Result<(), EvaluationError> {
         let mut solution = vec![0.0; self.scales.len()];
         for block in right.chunks_mut(self.scales.len().max(1)) {
@@ -166,36 +198,4 @@ fn quadratic(pattern: &Pattern, values: &[f64], v: &[f64]) -> f64 {
         factor * values[at] * v[row] * v[column]
     };
     pattern.iter().enumerate().map(term).sum()
-}
-
-/// [I U]ᵀ·H·[I; U] for the lower triangle of H over design and states, as a dense lower triangle by rows.
-pub(super) fn congruence(pattern: &Pattern, hessian: &[f64], columns: &[Vec<f64>], values: &mut [f64]) {
-    let n = columns.len();
-    values.fill(0.0);
-    let triangle = |row: usize, column: usize| row.max(column) * (row.max(column) + 1) / 2 + row.min(column);
-    // H·[I; U]: products of every state row, then of the mixed ones.
-    let states = pattern.rows() - n;
-    let mut through = vec![vec![0.0; states]; n];
-    for (at, (row, column)) in pattern.iter().enumerate() {
-        let value = hessian[at];
-        match (row.checked_sub(n), column.checked_sub(n)) {
-            (None, _) => values[triangle(row, column)] += value,
-            (Some(state), None) => through[column][state] += value,
-            (Some(left), Some(right)) => {
-                for (j, column) in columns.iter().enumerate() {
-                    // Half of Uᵀ·L_uu·U: the other half comes with the transposed product below.
-                    through[j][left] += 0.5 * value * column[right];
-                    if left != right {
-                        through[j][right] += 0.5 * value * column[left];
-                    }
-                }
-            }
-        }
-    }
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    for i in 0..n {
-        for j in 0..=i {
-            values[triangle(i, j)] += dot(&through[i], &columns[j]) + dot(&through[j], &columns[i]);
-        }
-    }
 }

@@ -1,0 +1,61 @@
+//! A bound below every design of a truss, beside a minimum that is only known to be a local one.
+
+use std::sync::atomic::AtomicBool;
+
+use super::Subject;
+use super::unobserved::unobserved;
+use crate::backends::argmin::Argmin;
+use crate::certificate::Scope;
+use crate::crosscheck::{Outcome, Status, Task};
+use crate::model::relaxation::relaxation;
+use crate::run::Choice;
+
+/// A minimum no further above the bound than this, relative, is the global one: what backends may differ by and still agree.
+const AGREEMENT: f64 = 1e-6;
+
+/// Puts the bound beside a certified minimum, and says so where it reaches it; proves a contradiction where even free forces cannot meet the limits.
+pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: Option<&AtomicBool>) {
+    if outcome.scope == Scope::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
+        return;
+    }
+    let Some(relaxed) = relaxed(subject, interrupt) else { return };
+    match outcome.status {
+        Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Scope::Global) => {
+            outcome.scope = Scope::Global;
+            outcome.message += " No forces that are in equilibrium with the loads meet the limits: this is proved.";
+        }
+        Status::Certified => above(outcome, &relaxed),
+        _ => {}
+    }
+}
+
+/// The bound in numbers where it is rigorous; where the relaxed minimum is the global one, as convex ones are, it is as good to compare with.
+fn above(outcome: &mut Outcome, relaxed: &Outcome) {
+    let Some(objective) = outcome.objective else { return };
+    outcome.lower_bound = relaxed.lower_bound.map(|bound| bound.min(objective));
+    let is_global = relaxed.status == Status::Certified && relaxed.scope == Scope::Global;
+    let least = if is_global { relaxed.objective } else { relaxed.lower_bound };
+    if least.is_some_and(|least| objective - least <= AGREEMENT * objective.abs().max(least.abs())) {
+        outcome.scope = Scope::Global;
+        outcome.message += " No design of this layout is below it: whatever forces are in equilibrium with the loads, their limits need as much.";
+        outcome.remedy = None;
+        outcome.better_point_elsewhere = false;
+    }
+}
+
+/// The run with free forces; `None` where it would say nothing of the structure.
+fn relaxed(subject: &Subject, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
+    let relaxed = relaxation(subject.problem()).ok()??;
+    let model = relaxed.model.model();
+    let task = Task {
+        model,
+        substitution: relaxed.substitution.as_deref().map(|other| other as _),
+        class: relaxed.class,
+        settings: &subject.settings,
+        start: &model.meta().start,
+        start_multipliers: None,
+        starts: 1,
+        interrupt,
+    };
+    Some(unobserved(&task, &[Choice { backend: &Argmin, algorithm: "auto".into() }]))
+}
