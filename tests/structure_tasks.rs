@@ -66,7 +66,7 @@ fn ten_bars_under_stress_limits_are_1593_pounds_either_way() {
     std::fs::write(folder.path().join("ribs.csv"), format!("name,start,end,section\n{ribs}")).unwrap();
     let file = folder.path().join("problem.toml");
     std::fs::write(&file, TEN_BARS).unwrap();
-    same_optimum(&file, &in_repository("tests/data/ten-bar-by-hand.toml"), 1593.180_91);
+    same_optimum(&file, &in_repository("tests/data/ten-bar-by-hand.toml"), 1_593.180_91);
 }
 
 #[test]

@@ -13,8 +13,11 @@ use crate::report::pictures;
 use crate::report::structure::{Courses, write_vtu};
 use crate::report::utilisation::Table;
 
+/// What a file is written by.
+type Content<'a> = &'a dyn Fn(&mut dyn io::Write) -> io::Result<()>;
+
 /// Takes one file by name and what writes it.
-pub(super) type Put<'a> = &'a mut dyn FnMut(&str, &dyn Fn(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()>;
+pub(super) type Put<'a> = &'a mut dyn FnMut(&str, Content<'_>) -> io::Result<()>;
 
 /// `displacements.csv`, `reactions.csv`, `forces.csv`.
 ///
@@ -42,7 +45,7 @@ pub(super) fn pictures(courses: &Courses, used: Option<&Table>, about: &About, p
 }
 
 /// Into the folder of a run.
-pub(super) fn into(files: &mut Writer) -> impl FnMut(&str, &dyn Fn(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> + '_ {
+pub(super) fn into(files: &mut Writer) -> impl FnMut(&str, Content<'_>) -> io::Result<()> + '_ {
     |name, write| files.file(name, |out| write(out))
 }
 
@@ -77,7 +80,7 @@ pub fn leave(subject: &Subject, x: &[f64], inputs: &Inputs, folder: &Path) -> Re
     let unwritable = |path: &Path, cause| FolderError::Unwritable { path: path.into(), cause };
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, cause))?;
     let (mut set, mut written) = (whole::Set::default(), Vec::new());
-    let mut put = |name: &str, write: &dyn Fn(&mut dyn io::Write) -> io::Result<()>| {
+    let mut put = |name: &str, write: Content<'_>| {
         written.push(folder.join(name));
         set.write(&folder.join(name), |out| write(out))
     };
