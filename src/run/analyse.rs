@@ -59,7 +59,9 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         None => subject.shown().meta().start.clone(),
     };
     let problem = subject.problem();
-    let responses = Responses::of(problem)?;
+    // Without a case there are no displacements to ask for.
+    let acted_on = problem.structure.as_deref().is_some_and(|structure| structure.load_sets() > 0);
+    let responses = if acted_on { Responses::of(problem)? } else { None };
     if let Some(words) = responses.as_ref().map(|all| all.mechanism(&x)).transpose()?.flatten() {
         return Err(AnalysisError::Mechanism(words));
     }

@@ -15,7 +15,27 @@ pub(super) fn of(problem: &Problem, constraint: &Constraint) -> Place {
         found.look(formula, problem, &mut definitions);
     }
     let case = only(&found.sets).map_or(String::new(), |&set| structure.load_set_name(set).to_owned());
-    Place { case, station: only(&found.stations).copied(), point: only(&found.points).map_or(String::new(), |p| p.to_string()) }
+    let point = only(&found.points).map_or(String::new(), |point| point.to_string());
+    let mut place = Place { case, station: only(&found.stations).copied(), point };
+    complete(&mut place, &constraint.detail, |name| structure.load_set(name).is_some());
+    place
+}
+
+/// What a row is told apart by says the rest: limits of bars that may vanish are on their forces, which have no point.
+fn complete(place: &mut Place, detail: &str, is_case: impl Fn(&str) -> bool) {
+    const WAYS: [&str; 3] = ["tension", "compression", "torsion reversed"];
+    for part in detail.split(", ").filter(|part| !part.is_empty() && !WAYS.contains(part)) {
+        match part.parse::<f64>() {
+            _ if is_case(part) => {
+                if place.case.is_empty() {
+                    place.case = part.to_owned();
+                }
+            }
+            Ok(station) => place.station = place.station.or(Some(station)),
+            Err(_) if place.point.is_empty() => place.point = part.to_owned(),
+            Err(_) => {}
+        }
+    }
 }
 
 fn only<T>(list: &[T]) -> Option<&T> {
@@ -66,5 +86,19 @@ impl Found {
         add(&mut self.sets, response.set);
         station.into_iter().for_each(|station| add(&mut self.stations, station));
         point.into_iter().for_each(|point| add(&mut self.points, Arc::clone(point)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rows_detail_says_what_its_formulas_do_not() {
+        let mut place = Place::default();
+        complete(&mut place, "P, 0.5, centre, compression", |name| name == "P");
+        assert_eq!(place, Place { case: "P".into(), station: Some(0.5), point: "centre".into() });
+        complete(&mut place, "Q, 1, top", |name| name == "Q");
+        assert_eq!((place.case.as_str(), place.station), ("P", Some(0.5)));
     }
 }
