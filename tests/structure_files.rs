@@ -232,3 +232,52 @@ require = "disp(dead, c, z) >= -1"
         ]
     );
 }
+
+#[test]
+fn a_structure_on_which_nothing_acts_is_no_mechanism_and_says_so() {
+    let text = r#"
+minimize = "mass"
+[structure]
+plane = "xz"
+[materials.s]
+E = 2.1e8
+density = 77
+[nodes]
+a = [0, 0]
+b = [3, 0]
+[supports]
+a = "fixed"
+[sections.r]
+kind = "rectangle"
+b = 0.1
+h = { lower = 0.1, upper = 0.5, start = 0.2 }
+[[ribs]]
+name = "m"
+start = "a"
+end = "b"
+section = "r"
+[definitions]
+own = "mass"
+"#;
+    let subject = ribopt::run::Subject::of_text("nothing.toml", text).unwrap();
+    let found = ribopt::run::analyse::analyse(&subject, None, false).unwrap();
+    assert!(found.remarks.iter().any(|remark| remark.contains("nothing acts")), "{:?}", found.remarks);
+    assert!((found.definitions[0].1 - 77.0 * 0.1 * 0.2 * 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn combinations_that_no_response_asks_for_are_warned_of_and_case_is_no_matter_in_suggestions() {
+    let text = |node: &str| {
+        format!(
+            "minimize = \"mass\"\n[structure]\nplane = \"xz\"\n[materials.s]\nE = 2.1e8\ndensity = 77\n[nodes]\na = [0, 0]\nb = [3, 0]\n[supports]\n\
+             a = \"fixed\"\n[sections.r]\nkind = \"rectangle\"\nb = 0.1\nh = {{ lower = 0.1, upper = 0.5, start = 0.2 }}\n[[ribs]]\nname = \"m\"\nstart = \"a\"\n\
+             end = \"b\"\nsection = \"r\"\n[[loads]]\ncase = \"P\"\nnodes = [\"{node}\"]\nforce = [0, -10]\n[combinations]\nU = {{ P = 1.5 }}\nV = {{ P = 1 }}\n\
+             [[constraints]]\nname = \"s\"\nrequire = \"abs(stress(U, m, 0, top)) <= 2e5\"\n"
+        )
+    };
+    let input = ribopt::input::read_text("t.toml", &text("b")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let warnings: Vec<&str> = input.warnings.iter().map(|warning| warning.message.as_str()).collect();
+    assert_eq!(warnings, ["combination `V` is in no response: nothing is limited under it"]);
+    let message = ribopt::input::read_text("t.toml", &text("B")).unwrap_err().to_string();
+    assert!(message.contains("did you mean `b`?"), "{message}");
+}

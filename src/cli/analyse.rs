@@ -5,8 +5,11 @@ mod show;
 use super::arguments::Analyse;
 use super::failure::Failure;
 use super::{output, reading};
+use ribopt::files::Inputs;
 use ribopt::run::RunError;
+use ribopt::run::Subject;
 use ribopt::run::analyse::{AnalysisError, analyse};
+use ribopt::run::structure_files;
 
 /// The exit code where the structure cannot be analysed.
 const NOT_ANALYSED: u8 = 6;
@@ -27,7 +30,22 @@ pub fn run(arguments: &Analyse) -> Result<u8, Failure> {
             return Ok(NOT_ANALYSED);
         }
     };
+    output::tell(&analysis.remarks);
+    let written = match &arguments.out {
+        Some(folder) => structure_files::leave(&subject, &analysis.x, &inputs(arguments, &subject), folder)?,
+        None => Vec::new(),
+    };
     let problem = subject.problem();
     output::print(|out| if arguments.json { show::json(&analysis, problem, out) } else { show::text(&analysis, problem, out) })?;
+    if !arguments.json {
+        output::print(|out| written.iter().try_for_each(|path| writeln!(out, "written: {}", path.display())))?;
+    }
     Ok(0)
+}
+
+/// Everything that is read, none of which an output may take the place of.
+fn inputs(arguments: &Analyse, subject: &Subject) -> Inputs {
+    let mut inputs = subject.inputs.clone();
+    arguments.answer.iter().for_each(|answer| inputs.add(answer));
+    inputs
 }

@@ -114,8 +114,9 @@ pub struct Solve {
     pub solids: Vec<PathBuf>,
     #[command(flatten)]
     pub limits: Limits,
-    /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line, and the
-    /// ribs in space where geometry.csv beside the problem file places them
+    /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line, the
+    /// ribs in space where geometry.csv beside the problem file or the nodes of a structure place them; of a structure the displaced
+    /// shape and the courses of its forces, too (also as VTU)
     #[arg(long)]
     pub plot: bool,
     /// No table and no summary; errors and warnings only
@@ -251,6 +252,9 @@ pub struct Analyse {
     /// The derivative of every definition by every variable, too
     #[arg(long)]
     pub gradient: bool,
+    /// Leave tables (displacements, reactions, forces, utilisation) and pictures (displaced shape, courses of forces, VTU) in this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     #[command(flatten)]
     pub changes: Changes,
 }

@@ -87,7 +87,7 @@ fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Fai
 /// known.
 fn network(arguments: &Solve, subject: &Subject) -> Result<Option<Network>, RunError> {
     arguments.solids.iter().try_for_each(|out| network::check_ending(out))?;
-    let wanted = !arguments.solids.is_empty() || arguments.plot && Network::is_beside(&arguments.file);
+    let wanted = !arguments.solids.is_empty() || arguments.plot && Network::is_known(&arguments.file, subject.problem());
     Ok(wanted.then(|| Network::beside(&arguments.file, subject.problem())).transpose()?)
 }
 

@@ -64,6 +64,9 @@ fn solved(ledger: &mut Ledger<'_, '_>) -> Outcome {
     }
     further_runs(ledger, &mut answers);
     let mut outcome = conclude(ledger, answers);
+    if task.starts > 1 {
+        words::more_starts_than(&mut outcome, starts_run);
+    }
     if starts_run < task.starts {
         words::starts_left_out(&mut outcome, starts_run, task.starts);
     }

@@ -42,6 +42,12 @@ pub(super) fn certified(outcome: &mut Outcome) {
     outcome.message = message;
 }
 
+/// Whoever has tried some starts is told of more than these.
+pub(super) fn more_starts_than(outcome: &mut Outcome, run: usize) {
+    let more = format!("--starts {} (this run had {run})", 4 * run);
+    outcome.remedy = outcome.remedy.take().map(|remedy| remedy.replace("--starts N", &more));
+}
+
 pub(super) fn starts_left_out(outcome: &mut Outcome, run: usize, wanted: usize) {
     outcome.message.push_str(&format!(" Only {run} of {wanted} starts were run before the end."));
 }

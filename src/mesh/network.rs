@@ -53,6 +53,17 @@ pub struct Network {
     pub sections: Vec<String>,
     /// The ribs, line by line.
     pub ribs: Vec<Rib>,
+    /// The points where ribs meet, by their numbers in [`RibGeometry::joints`].
+    pub joints: Vec<Joint>,
+}
+
+/// A point where ribs meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// `v7` at a mesh vertex, `L3_s2` at a station between two.
+    pub name: String,
+    /// The mesh vertex, or [`NONE`].
+    pub vertex: u32,
 }
 
 /// Why ribs have no place.
@@ -77,6 +88,17 @@ impl Network {
         }
         Ok(builder.network)
     }
+
+    /// Where the joints are.
+    pub fn positions(&self) -> Vec<Vector> {
+        let mut positions = vec![Vector::zeros(); self.joints.len()];
+        for rib in &self.ribs {
+            for (joint, end) in rib.geometry.joints.into_iter().zip(rib.geometry.ends) {
+                positions[joint as usize] = end;
+            }
+        }
+        positions
+    }
 }
 
 #[derive(Default)]
@@ -86,7 +108,6 @@ struct Builder {
     shared: BTreeMap<u32, u32>,
     /// Joints of mesh vertices.
     joints: BTreeMap<u32, u32>,
-    joint_count: u32,
 }
 
 impl Builder {
@@ -98,7 +119,7 @@ impl Builder {
                 at[0]
             } else {
                 let is_end = !line.closed && (k == 0 || k == last);
-                (self.section(line, k, station.vertex, is_end), self.joint(station.vertex))
+                (self.section(line, k, station.vertex, is_end), self.joint(line, k, station.vertex))
             };
             at.push(place);
         }
@@ -138,13 +159,16 @@ impl Builder {
         }
     }
 
-    fn joint(&mut self, vertex: u32) -> u32 {
-        let count = &mut self.joint_count;
-        let mut new = || {
-            *count += 1;
-            *count - 1
+    fn joint(&mut self, line: &StationLine, k: usize, vertex: u32) -> u32 {
+        let joints = &mut self.network.joints;
+        let mut add = |name: String| {
+            joints.push(Joint { name, vertex });
+            joints.len() as u32 - 1
         };
-        if vertex == NONE { new() } else { *self.joints.entry(vertex).or_insert_with(new) }
+        if vertex == NONE {
+            return add(format!("{}_s{}", line.name, k + 1));
+        }
+        *self.joints.entry(vertex).or_insert_with(|| add(format!("v{}", vertex + 1)))
     }
 }
 

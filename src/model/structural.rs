@@ -41,6 +41,8 @@ impl Assembled {
                 let fits = entries(model.lifted()) <= LARGEST_REDUCED;
                 fits.then(|| Box::new(DesignAlone(Arc::clone(model))) as Box<dyn Substitution + Send>)
             }
+            // Beyond what is small, few design variables are dense columns beside the displacements.
+            Assembled::Structure(model) if entries(model.lifted()) > LARGEST_DENSE => None,
             Assembled::Structure(model) => Some(Box::new(WithDisplacements(Arc::clone(model)))),
         }
     }
@@ -75,8 +77,16 @@ fn entries(lifted: &Lifted) -> usize {
 }
 
 fn is_large(lifted: &Lifted) -> bool {
-    entries(lifted) > LARGEST_DENSE
+    let few = lifted.states().first_variable <= FEW_VARIABLES && entries(lifted) <= LARGEST_OF_FEW;
+    entries(lifted) > LARGEST_DENSE && !few
 }
+
+/// Design variables up to which the reduced model judges larger problems, too: each is in nearly every row of the lifted one by the sections it
+/// shares, and so many dense columns fill its factors, while derivatives of the reduced one cost a solve each.
+const FEW_VARIABLES: usize = 64;
+
+/// Entries of the reduced Jacobian up to which it does: 8 MB.
+const LARGEST_OF_FEW: usize = 1_000_000;
 
 /// Assembles a problem: reduced to its design variables where it asks for responses of a structure.
 ///

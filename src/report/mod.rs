@@ -15,6 +15,7 @@ pub mod performance_profile;
 pub mod pictures;
 pub mod result;
 pub mod sizes;
+pub mod structure;
 pub mod summary;
 pub mod tables;
 pub mod text;
@@ -42,6 +43,8 @@ pub struct About {
     pub units: Vec<(String, String)>,
     /// True where sections offer an Ix, whose convention reports must state.
     pub has_sections: bool,
+    /// True where ribs make up a structure, whose axes reports must state.
+    pub has_structure: bool,
     /// What the reader wants said.
     pub warnings: Vec<String>,
     /// Changes to the file's numbers for this run, as given by `--set`.

@@ -22,6 +22,7 @@ fn about(sense: Sense) -> About {
         objective: "volume".into(),
         units: vec![("length".into(), "m".into())],
         has_sections: true,
+        has_structure: false,
         warnings: Vec::new(),
         changes: Vec::new(),
     }

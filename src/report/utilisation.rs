@@ -1,4 +1,4 @@
-//! How far every limit is used: value, limit and per cent, row by row as CSV, grouped on the console.
+//! How far limits are used: what uses every rib most, and every limit row by row, as CSV; grouped on the console.
 
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -6,8 +6,11 @@ use std::io::{self, Write};
 use super::number::{exact, short, significant};
 use super::text::{TextTable, count};
 
-/// How the table begins.
-pub const HEADER: &str = "name,constraint,of,item,value,side,limit,percent";
+/// How `limits.csv` begins.
+pub const LIMITS_HEADER: &str = "name,constraint,of,item,value,side,limit,percent";
+
+/// How `utilisation.csv` begins.
+pub const HEADER: &str = "rib,utilisation,governs,case,station,point,value,side,limit";
 
 /// Lines of a group on the console.
 const MOST_LINES: usize = 12;
@@ -36,8 +39,38 @@ pub struct Declared {
     pub name: String,
     /// Case, station and point it is spread over; empty where it is not.
     pub detail: String,
-    /// `section`, `rib`, `group`, or nothing.
+    /// `section`, `rib`, `node`, `group`, or nothing.
     pub of: &'static str,
+    /// Where and when it looks at the structure.
+    pub place: Place,
+}
+
+impl Declared {
+    /// The name in the file: without the `#2` of a row that an abs, min or max of it made.
+    pub fn written(&self) -> &str {
+        match self.name.rsplit_once('#') {
+            Some((name, number)) if !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()) => name,
+            _ => &self.name,
+        }
+    }
+}
+
+/// The case, the station and the point of a structure's response; empty where a constraint names none, or several.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Place {
+    /// A case or combination.
+    pub case: String,
+    /// A fraction of the rib's length.
+    pub station: Option<f64>,
+    /// A point of the section.
+    pub point: String,
+}
+
+impl Place {
+    /// Whether nothing is known.
+    pub fn is_empty(&self) -> bool {
+        self.case.is_empty() && self.station.is_none() && self.point.is_empty()
+    }
 }
 
 /// A section or a rib and the limit that uses it most.
@@ -47,8 +80,8 @@ pub struct Loaded {
     pub of: &'static str,
     /// Its name.
     pub name: String,
-    /// The row.
-    pub row: String,
+    /// The limit, among [`Table::uses`].
+    pub at: usize,
     /// Its share.
     pub share: f64,
 }
@@ -62,6 +95,10 @@ pub struct Table {
     pub uses: Vec<Use>,
     /// Sections and ribs, those used most first.
     pub items: Vec<Loaded>,
+    /// All ribs in the file's order: the name, and the limit that uses it most among [`Table::uses`] with its share.
+    pub ribs: Vec<(String, Option<(usize, f64)>)>,
+    /// The constraint of every row, among [`Table::constraints`].
+    pub rows: Vec<u32>,
 }
 
 impl Table {
@@ -73,13 +110,50 @@ impl Table {
         if parts.is_empty() { declared.name.clone() } else { format!("{}[{}]", declared.name, parts.join(", ")) }
     }
 
-    /// Writes [`HEADER`] and one line per limit.
+    /// Where row number `row` looks at the structure.
+    pub fn place(&self, row: usize) -> Option<&Place> {
+        Some(&self.constraints.get(*self.rows.get(row)? as usize)?.place)
+    }
+
+    /// Whether some limit looks at a structure.
+    pub fn is_of_structure(&self) -> bool {
+        self.constraints.iter().any(|declared| !declared.place.is_empty())
+    }
+
+    /// Writes [`HEADER`] and one line per rib; what no limit speaks of has empty cells.
     ///
     /// # Errors
     /// Whatever the writer says.
-    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_ribs(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
         table.write_record(HEADER.split(','))?;
+        for (name, most) in &self.ribs {
+            let name = super::text::cell(name);
+            let found = most.and_then(|(at, share)| {
+                let used = self.uses.get(at)?;
+                Some((share, used, self.constraints.get(used.constraint)?))
+            });
+            let Some((share, used, declared)) = found else {
+                table.write_record([&*name, "", "", "", "", "", "", "", ""])?;
+                continue;
+            };
+            let Place { case, station, point } = &declared.place;
+            let (governs, case) = (super::text::cell(declared.written()), super::text::cell(case));
+            let station = station.map_or(String::new(), exact);
+            let side = if used.from_above { "<=" } else { ">=" };
+            let (share, value, limit) = (exact(share), exact(used.value), exact(used.limit));
+            table.write_record([&*name, &share, &*governs, &*case, &station, point, &value, side, &limit])?;
+        }
+        table.flush()
+    }
+
+    /// Writes [`LIMITS_HEADER`] and one line per limit.
+    ///
+    /// # Errors
+    /// Whatever the writer says.
+    pub fn write_limits(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut table = csv::Writer::from_writer(out);
+        table.write_record(LIMITS_HEADER.split(','))?;
         for used in &self.uses {
             let declared = self.constraints.get(used.constraint);
             let (name, of) = declared.map_or(("", ""), |declared| (declared.name.as_str(), declared.of));
@@ -128,7 +202,7 @@ impl Table {
         }
         write!(out, "{table}")?;
         if lines.len() > MOST_LINES {
-            writeln!(out, "  … {} in utilisation.csv", count(lines.len() - MOST_LINES, "more constraint"))?;
+            writeln!(out, "  … {} in limits.csv", count(lines.len() - MOST_LINES, "more constraint"))?;
         }
         self.write_items(out)
     }
@@ -138,15 +212,41 @@ impl Table {
             return Ok(());
         }
         writeln!(out, "  by section and rib, the limit that uses each most")?;
-        let mut table = TextTable::new(3, &["", "name", "limit", "per cent"]);
+        let analysed = self.is_of_structure();
+        let columns: &[&str] = match analysed {
+            true => &["", "name", "limit", "case", "point", "at", "per cent"],
+            false => &["", "name", "limit", "per cent"],
+        };
+        let mut table = TextTable::new(if analysed { 5 } else { 3 }, columns);
         for item in self.items.iter().take(MOST_LINES) {
-            table.add(vec![item.of.into(), item.name.clone(), item.row.clone(), per_cent(Some(item.share))]);
+            table.add(self.item_line(item, analysed));
         }
         write!(out, "{table}")?;
         if self.items.len() > MOST_LINES {
-            writeln!(out, "  … {} used less", self.items.len() - MOST_LINES)?;
+            let ribs = if self.ribs.is_empty() { "" } else { "; utilisation.csv has all ribs" };
+            writeln!(out, "  … {} used less{ribs}", self.items.len() - MOST_LINES)?;
         }
         Ok(())
+    }
+
+    fn item_line(&self, item: &Loaded, analysed: bool) -> Vec<String> {
+        let declared = self.uses.get(item.at).and_then(|used| self.constraints.get(used.constraint));
+        let mut cells = vec![item.of.to_owned(), item.name.clone()];
+        match declared.map(|declared| (declared.written(), &declared.place)) {
+            Some((name, place)) if analysed && !place.is_empty() => {
+                let station = place.station.map_or("-".into(), short);
+                let or_dash = |text: &str| if text.is_empty() { "-".to_owned() } else { text.to_owned() };
+                cells.extend([name.to_owned(), or_dash(&place.case), or_dash(&place.point), station]);
+            }
+            _ => {
+                cells.push(self.uses.get(item.at).map_or_else(String::new, |used| self.row_name(used)));
+                if analysed {
+                    cells.extend(["-", "-", "-"].map(String::from));
+                }
+            }
+        }
+        cells.push(per_cent(Some(item.share)));
+        cells
     }
 }
 
@@ -167,13 +267,16 @@ mod tests {
             limit,
             share: Some(share),
         };
+        let declared = |name: &str, of, place| Declared { name: name.into(), detail: String::new(), of, place };
         Table {
             constraints: vec![
-                Declared { name: "stress".into(), detail: String::new(), of: "rib" },
-                Declared { name: "=sag".into(), detail: String::new(), of: "" },
+                declared("stress#2", "rib", Place { case: "ULS".into(), station: Some(0.5), point: "top".into() }),
+                declared("=sag", "", Place::default()),
             ],
             uses: vec![used(0, "r1", 100.0, 235.0, 0.4255), used(0, "r2", 235.0, 235.0, 1.0), used(1, "", 3.0, 4.0, 0.75)],
             items: Vec::new(),
+            ribs: vec![("r1".into(), Some((0, 0.4255))), ("r2".into(), Some((1, 1.0))), ("r3".into(), None)],
+            rows: vec![0, 0, 1],
         }
     }
 
@@ -182,19 +285,30 @@ mod tests {
         let mut text = Vec::new();
         table().write(&mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("stress[r2]     2    235  <=    235       100"), "{text}");
-        assert!(!text.contains("stress[r1]") && text.contains("75"), "{text}");
+        assert!(text.contains("stress#2[r2]     2    235  <=    235       100"), "{text}");
+        assert!(!text.contains("[r1]") && text.contains("75"), "{text}");
     }
 
     #[test]
     fn every_row_is_in_the_csv_and_no_name_is_a_formula() {
         let mut text = Vec::new();
-        table().write_csv(&mut text).unwrap();
+        table().write_limits(&mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert_eq!(text.lines().next(), Some(HEADER));
+        assert_eq!(text.lines().next(), Some(LIMITS_HEADER));
         assert!(
-            text.contains("stress[r1],stress,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="),
+            text.contains("stress#2[r1],stress#2,rib,r1,100.0,<=,235.0,42.55") && text.contains("\n'=sag,'=sag,,,3.0,<="),
             "{text}"
         );
+    }
+
+    #[test]
+    fn every_rib_has_one_line_with_what_governs_and_where() {
+        let mut text = Vec::new();
+        table().write_ribs(&mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let expected = [HEADER, "r1,0.4255,stress,ULS,0.5,top,100.0,<=,235.0", "r2,1.0,stress,ULS,0.5,top,235.0,<=,235.0"];
+        assert_eq!(lines[..3], expected);
+        assert_eq!(lines[3..], ["r3,,,,,,,,"]);
     }
 }

@@ -1,6 +1,6 @@
 //! `analyse`: what the structure does at a point; nothing is optimised.
 
-mod responses;
+pub(super) mod responses;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use super::{RunError, Subject};
 use crate::model::{Assembled, AssemblyError, EvaluationError, assemble_any};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
+use crate::report::text::listing;
 use responses::Responses;
 pub use responses::{CaseResponses, Extreme};
 
@@ -23,6 +24,10 @@ pub struct Analysis {
     pub variables: Vec<String>,
     /// What the structure does, by case and combination.
     pub cases: Vec<CaseResponses>,
+    /// The point that was analysed, by variable.
+    pub x: Vec<f64>,
+    /// What is odd about it, in sentences.
+    pub remarks: Vec<String>,
     /// The largest residual of an equilibrium equation over the largest sum of its terms.
     pub equilibrium_residual: f64,
 }
@@ -54,7 +59,9 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         None => subject.shown().meta().start.clone(),
     };
     let problem = subject.problem();
-    let responses = Responses::of(problem)?;
+    // Without a case there are no displacements to ask for.
+    let acted_on = problem.structure.as_deref().is_some_and(|structure| structure.load_sets() > 0);
+    let responses = if acted_on { Responses::of(problem)? } else { None };
     if let Some(words) = responses.as_ref().map(|all| all.mechanism(&x)).transpose()?.flatten() {
         return Err(AnalysisError::Mechanism(words));
     }
@@ -74,11 +81,29 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         }
         analysis.variables = (0..x.len()).map(|j| model.variable_name(j)).collect();
     }
+    analysis.remarks = remarks(subject, &x);
     if let Some(responses) = &responses {
         analysis.cases = responses.by_case(&x)?;
         analysis.equilibrium_residual = responses.residual(&x)?;
     }
+    analysis.x = x;
     Ok(analysis)
+}
+
+/// Variables outside their bounds, and a structure on which nothing acts.
+fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
+    let (model, mut remarks) = (subject.shown(), Vec::new());
+    let meta = model.meta();
+    let outside = (0..x.len()).filter(|&j| x[j] < meta.lower[j] || x[j] > meta.upper[j]);
+    let outside: Vec<String> = outside.map(|j| model.variable_name(j)).collect();
+    if !outside.is_empty() {
+        let names = listing(outside.into_iter(), 5);
+        remarks.push(format!("warning: the answer is outside the bounds of {names}; it is analysed all the same"));
+    }
+    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) {
+        remarks.push("warning: nothing acts on the structure: the file has no [[loads]], and so no case to analyse".into());
+    }
+    remarks
 }
 
 /// The problem with one row per definition.

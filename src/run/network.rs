@@ -1,21 +1,25 @@
-//! The ribs of a problem in space: `geometry.csv` beside the problem file (as `ribopt mesh ribs` writes it), read before the
-//! solve; solids and pictures of the sized ribs after it.
+//! The ribs of a problem in space: where its nodes are, or by `geometry.csv` beside the problem file (as `ribopt mesh ribs` writes it), read
+//! before the solve; solids and pictures of the sized ribs after it.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{Subject, sizing};
+use super::{Subject, courses, sizing};
+use crate::expression::ast::Collection;
 use crate::files;
+use crate::mesh::Vector;
 use crate::mesh::commands::{self, CommandError};
 use crate::mesh::formats::{self, FormatError};
 use crate::mesh::network::{NetworkError, RibGeometry, read_geometry};
 use crate::mesh::solids::{Report, SizedRib};
+use crate::mesh::stations::Frame;
 use crate::model::EvaluationError;
 use crate::problem::Problem;
 use crate::report::About;
 use crate::report::pictures::{self, Load};
+use crate::report::structure::MemberPlace;
 
 /// The table's name.
 pub const GEOMETRY: &str = "geometry.csv";
@@ -23,17 +27,20 @@ pub const GEOMETRY: &str = "geometry.csv";
 /// A rib's length may differ from the distance of its ends by this much, relatively: numbers that were rounded when written.
 const LENGTH: f64 = 1e-6;
 
-/// Where every rib lies, in the problem's order.
+/// Where every rib lies.
 #[derive(Debug)]
 pub struct Network {
-    ribs: Vec<RibGeometry>,
+    /// In the problem's order; `None`: where the design puts the nodes of a structure.
+    table: Option<Vec<RibGeometry>>,
 }
 
 /// Why there are no solids and no picture.
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum NetworkFailure {
-    #[error("{path}: {cause}; solids and pictures of ribs need this table, `ribopt mesh ribs` writes it beside the problem")]
+    #[error(
+        "{path}: {cause}; solids and pictures of ribs without nodes need this table, `ribopt mesh ribs` writes it beside the problem"
+    )]
     Missing { path: PathBuf, cause: std::io::Error },
     #[error("{path}: {cause}; write it anew with `ribopt mesh ribs`")]
     Table { path: PathBuf, cause: NetworkError },
@@ -56,16 +63,20 @@ pub enum NetworkFailure {
 }
 
 impl Network {
-    /// Whether there is a table beside the problem file.
-    pub fn is_beside(problem_file: &Path) -> bool {
-        problem_file.with_file_name(GEOMETRY).is_file()
+    /// Whether all ribs have nodes, or there is a table beside the problem file.
+    pub fn is_known(problem_file: &Path, problem: &Problem) -> bool {
+        have_nodes(problem) || problem_file.with_file_name(GEOMETRY).is_file()
     }
 
-    /// Reads the table beside the problem file and finds every rib in it. Ribs the problem does not have are left out.
+    /// By the nodes where all ribs have some; else reads the table beside the problem file and finds every rib in it. Ribs the problem
+    /// does not have are left out.
     ///
     /// # Errors
     /// No table, a wrong one, one that places a rib twice or not at all, or with ends at another distance than its length.
     pub fn beside(problem_file: &Path, problem: &Problem) -> Result<Network, NetworkFailure> {
+        if have_nodes(problem) {
+            return Ok(Network { table: None });
+        }
         let path = problem_file.with_file_name(GEOMETRY);
         let file = files::open(&path).map_err(|cause| NetworkFailure::Missing { path: path.clone(), cause })?;
         let table = read_geometry(file).map_err(|cause| NetworkFailure::Table { path: path.clone(), cause })?;
@@ -85,7 +96,7 @@ impl Network {
             }
             ribs.push(place);
         }
-        Ok(Network { ribs })
+        Ok(Network { table: Some(ribs) })
     }
 
     /// The ribs at a point.
@@ -93,8 +104,37 @@ impl Network {
     /// # Errors
     /// Sections without an outline there, limits without a value.
     pub fn sized(&self, subject: &Subject, x: &[f64]) -> Result<Sized, NetworkFailure> {
-        sizing::size(subject, x, &self.ribs)
+        let by_nodes = || placed_by_nodes(subject.problem(), x);
+        let own = if self.table.is_none() { by_nodes() } else { Vec::new() };
+        sizing::size(subject, x, self.table.as_deref().unwrap_or(&own))
     }
+}
+
+/// Whether there are ribs, and all run between nodes.
+fn have_nodes(problem: &Problem) -> bool {
+    let ribs = problem.ribs.names.len();
+    ribs > 0 && problem.structure.as_deref().is_some_and(|structure| structure.members.len() == ribs)
+}
+
+/// Every rib from node to node, but for rigid arms; on its line where it has a datum `line`, else on one of its own.
+fn placed_by_nodes(problem: &Problem, x: &[f64]) -> Vec<RibGeometry> {
+    let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else { return Vec::new() };
+    let mut members = courses::placed(problem, structure, statics, x).members;
+    members.sort_by_key(|member| member.rib);
+    let column = problem.ribs.data.iter().position(|column| column.name == "line");
+    let line = |rib: usize| problem.label(Collection::Ribs, column? as u32, rib as u32).map(str::to_owned);
+    let vector = |[x, y, z]: [f64; 3]| Vector::new(x, y, z);
+    let place = |member: MemberPlace| {
+        let [x, y, z] = member.axes.map(vector);
+        RibGeometry {
+            line: line(member.rib).unwrap_or_else(|| member.name.clone()),
+            name: member.name,
+            ends: member.ends.map(vector),
+            frame: Frame { x, y, z },
+            joints: member.nodes,
+        }
+    };
+    members.into_iter().map(place).collect()
 }
 
 /// All ribs with their rings, numbers and utilisation at one point.

@@ -1,6 +1,7 @@
 //! Ribs at a point: the outlines of their sections, numbers to tag them with, the volume the model gives them.
 
 use super::Subject;
+use super::courses::courses;
 use super::network::{NetworkFailure, Sized};
 use super::sizes::rib_volumes;
 use super::utilisation::loads;
@@ -15,6 +16,8 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
     let problem = at(subject.problem(), x);
     let shapes = (0..problem.sections.names.len()).map(|s| Shape::of(&problem, s)).collect::<Result<Vec<_>, _>>()?;
     let loads = loads(subject, x)?;
+    // Where the structure cannot be analysed, the limits' values have told so.
+    let responses = courses(subject, x).ok().flatten().map(|courses| courses.extremes()).unwrap_or_default();
     let volumes = rib_volumes(subject.problem(), x, Some(VolumeLaw::Prismatoid))?;
     let dimensions = dimension_names(&problem);
     let rib = |(r, place): (usize, &RibGeometry)| {
@@ -22,7 +25,7 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
         let of_ends = dimensions.iter().flat_map(|name| ends.map(|shape| shape.dimension(name)));
         SizedRib {
             rings: ends.map(|shape| shape.rings.clone()),
-            tags: of_ends.chain([place.length(), volumes[r]]).collect(),
+            tags: of_ends.chain([place.length(), volumes[r]]).chain(responses.iter().map(|(_, all)| all[r])).collect(),
             utilisation: loads[r].share,
             model_volume: Some(volumes[r]),
             geometry: place.clone(),
@@ -30,7 +33,8 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
     };
     let ribs = places.iter().enumerate().map(rib).collect();
     let of_ends = dimensions.iter().flat_map(|name| ["from", "to"].map(|end| format!("{end}.{name}")));
-    let tag_names = of_ends.chain(["length".into(), "volume".into()]).collect();
+    let tag_names =
+        of_ends.chain(["length".into(), "volume".into()]).chain(responses.iter().map(|(name, _)| name.clone())).collect();
     Ok(Sized { ribs, loads, tag_names })
 }
 
@@ -64,7 +68,9 @@ impl Shape {
             return Err(failure(defect));
         }
         if !kind.has_rings() {
-            return Err(failure(format!("kind {} is numbers only", kind.name())));
+            let area = form.dimensions.iter().position(|name| *name == "A").and_then(|at| values.get(at)).copied();
+            let rings = vec![round(area.filter(|area| *area > 0.0).ok_or_else(|| failure("its area is not positive".into()))?)];
+            return Ok(Shape { names: form.dimensions, values, rings });
         }
         let rings = kind.matching_rings(form, &values, outline);
         Ok(Shape { names: form.dimensions, values, rings })
@@ -75,6 +81,14 @@ impl Shape {
         let at = self.names.iter().position(|known| *known == name);
         at.and_then(|at| self.values.get(at)).copied().unwrap_or(f64::NAN)
     }
+}
+
+/// What numbers alone are drawn as: a round bar of the same area.
+fn round(area: f64) -> Ring {
+    const CORNERS: usize = 24;
+    let angle = std::f64::consts::TAU / CORNERS as f64;
+    let radius = (2.0 * area / (CORNERS as f64 * angle.sin())).sqrt();
+    (0..CORNERS).map(|at| (angle * at as f64).sin_cos()).map(|(sin, cos)| [radius * cos, radius * sin]).collect()
 }
 
 /// The names of all dimensions given, each once, in the order of the sections.

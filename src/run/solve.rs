@@ -5,13 +5,14 @@ use std::sync::atomic::AtomicBool;
 
 use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
+use super::courses::courses;
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
 use super::vanished::settle;
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, utilisation};
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
@@ -108,6 +109,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
     let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
     let mass = sizes::mass(subject.problem(), &outcome.x);
+    let courses = courses(subject, &outcome.x).ok().flatten();
     let (model, class) = (subject.shown(), subject.class());
     let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     let ending =
@@ -116,14 +118,23 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         files.file("variables.csv", |out| tables::variables(&findings, out))?;
         files.file("constraints.csv", |out| tables::constraints(&findings, out))?;
         if let Some(table) = &utilisation {
-            files.file("utilisation.csv", |out| table.write_csv(out))?;
+            files.file("limits.csv", |out| table.write_limits(out))?;
+            if !table.ribs.is_empty() {
+                files.file("utilisation.csv", |out| table.write_ribs(out))?;
+            }
         }
         sizes::leave(subject, &outcome.x, files)?;
+        if let Some(courses) = &courses {
+            structure_files::tables(courses, &mut structure_files::into(files))?;
+        }
         files.file("result.json", |out| result::write(&findings, out))?;
         if request.plot {
             let start = outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
             let start = &start[..start.len().min(subject.shown().meta().variables())];
             pictures::leave(&records.traces(&outcome), start, subject, &findings, files)?;
+            if let Some(courses) = &courses {
+                structure_files::pictures(courses, utilisation.as_ref(), &about, &mut structure_files::into(files))?;
+            }
         }
         Ok(())
     });

@@ -83,6 +83,7 @@ impl Subject {
             objective: problem.objective_text.clone(),
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
+            has_structure: problem.structure.is_some(),
             warnings: problem.warnings.iter().cloned().chain(plausible::warnings(problem)).collect(),
             changes: Vec::new(),
         };

@@ -51,7 +51,7 @@ fn ribs_of_a_mesh_can_be_made_of_it() {
     let mesh = QuadMesh::new(generate::grid(2, 1, 2.0)).unwrap();
     let network = Network::new(&stations::slice(&mesh, &trace::trace(&mesh), 3.0).unwrap()).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    write_problem(&network, &Options::of(kind), folder.path()).unwrap();
+    write_problem(&network, &crate::mesh::PolygonMesh::default(), &Options::of(kind), folder.path()).unwrap();
     let file = folder.path().join("problem.toml");
     let subject = Subject::read(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
     let outcome = solve::outcome(&subject).unwrap();

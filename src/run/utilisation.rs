@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use super::Subject;
+use super::{Subject, place};
 use crate::expression::ast::Collection;
 use crate::expression::operators::Binary;
 use crate::model::{EvaluationError, assemble_any};
@@ -26,13 +26,9 @@ pub fn loads(subject: &Subject, x: &[f64]) -> Result<Vec<Load>, EvaluationError>
     let problem = subject.problem();
     let uses = uses(subject, x)?;
     let found = Found::of(problem, &uses);
-    let section = |s: u32| found.sections.get(s as usize).copied().flatten();
-    let ends = problem.ribs.from.iter().zip(&problem.ribs.to);
-    // A rib's own, and those of its ends.
-    let both = |(own, (&from, &to)): (&Option<Most>, (&u32, &u32))| larger(*own, larger(section(from), section(to)));
     let load =
         |most: Most| Load { share: Some(most.share), limit: problem.constraints[uses[most.at].used.constraint].name.clone() };
-    Ok(found.ribs.iter().zip(ends).map(|pair| both(pair).map(load).unwrap_or_default()).collect())
+    Ok((0..problem.ribs.from.len()).map(|rib| found.of_rib(problem, rib).map(load).unwrap_or_default()).collect())
 }
 
 /// All limits with their values, and the sections and ribs by what uses them most.
@@ -43,19 +39,32 @@ pub fn table(subject: &Subject, x: &[f64]) -> Result<Table, EvaluationError> {
     let problem = subject.problem();
     let uses = uses(subject, x)?;
     let found = Found::of(problem, &uses);
-    let declared = |own: &Constraint| Declared { name: own.name.clone(), detail: own.detail.to_string(), of: of(&own.scope) };
-    let constraints = problem.constraints.iter().map(declared).collect();
-    let mut table = Table { constraints, uses: uses.into_iter().map(|row| row.used).collect(), items: Vec::new() };
+    let declared = |own: &Constraint| Declared {
+        name: own.name.clone(),
+        detail: own.detail.to_string(),
+        of: of(&own.scope),
+        place: place::of(problem, own),
+    };
+    let constraints: Vec<Declared> = problem.constraints.iter().map(declared).collect();
+    let rows = problem.constraints.iter().enumerate();
+    let rows = rows.flat_map(|(number, own)| std::iter::repeat_n(number as u32, own.scope.rows())).collect();
+    let uses = uses.into_iter().map(|row| row.used).collect();
+    let mut table = Table { constraints, uses, items: Vec::new(), ribs: of_ribs(problem, &found), rows };
     let all = [("section", Collection::Sections, &found.sections), ("rib", Collection::Ribs, &found.ribs)];
     for (of, collection, list) in all {
         for (index, most) in list.iter().enumerate() {
             let Some(Most { share, at }) = *most else { continue };
-            let row = table.uses.get(at).map_or_else(String::new, |used| table.row_name(used));
-            table.items.push(Loaded { of, name: problem.item_name(collection, index as u32).into(), row, share });
+            table.items.push(Loaded { of, name: problem.item_name(collection, index as u32).into(), at, share });
         }
     }
     table.items.sort_by(|a, b| b.share.total_cmp(&a.share));
     Ok(table)
+}
+
+/// Every rib with the largest use of its own limits and those of its ends.
+fn of_ribs(problem: &Problem, found: &Found) -> Vec<(String, Option<(usize, f64)>)> {
+    let most = |rib: usize| found.of_rib(problem, rib).map(|most| (most.at, most.share));
+    problem.ribs.names.iter().enumerate().map(|(rib, name)| (name.to_owned(), most(rib))).collect()
 }
 
 fn of(scope: &Scope) -> &'static str {
@@ -113,6 +122,13 @@ impl Found {
             }
         }
         found
+    }
+
+    /// A rib's own largest use, or that of its ends.
+    fn of_rib(&self, problem: &Problem, rib: usize) -> Option<Most> {
+        let section = |s: Option<&u32>| self.sections.get(*s? as usize).copied().flatten();
+        let ends = larger(section(problem.ribs.from.get(rib)), section(problem.ribs.to.get(rib)));
+        larger(self.ribs.get(rib).copied().flatten(), ends)
     }
 
     fn note(&mut self, collection: Collection, item: u32, used: Option<Most>) {

@@ -99,8 +99,8 @@ fn every_limit_is_told_with_its_use() {
     let (code, out, err) = place.said("solve t.toml");
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("Utilisation") && out.contains("by section and rib"), "{out}");
-    let percents = place.column("results/t/utilisation.csv", "percent");
-    let names = place.column("results/t/utilisation.csv", "name");
+    let percents = place.column("results/t/limits.csv", "percent");
+    let names = place.column("results/t/limits.csv", "name");
     let at =
         |name: &str| percents[names.iter().position(|known| known == name).expect("the row")].parse::<f64>().expect("a number");
     assert!((at("bending quarter") - 100.0).abs() < 1e-6 && at("bending mid") < 60.0);

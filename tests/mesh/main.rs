@@ -7,3 +7,4 @@ mod program;
 mod properties;
 mod round_trip;
 mod stages;
+mod structure;

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use ribopt::problem::Problem;
 use ribopt::problem::structure::{DIRECTIONS, Structure};
 use ribopt::report::number::short;
+use ribopt::report::structure::AXES;
 use ribopt::report::text::TextTable;
 use ribopt::run::analyse::{Analysis, CaseResponses, Extreme};
 use serde_json::{Map, Value, json};
@@ -77,10 +78,6 @@ pub fn text(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::
     }
     writeln!(out, "\nequilibrium residual: {}", short(analysis.equilibrium_residual))
 }
-
-/// Said once in every summary.
-const AXES: &str =
-    "z is up; ribs: x along, z height, y width; My bends about y and goes with Ix (Eurocode's Iy); N is positive in tension.";
 
 fn by_node(title: &str, list: &[(u32, usize, f64)], structure: &Structure, out: &mut dyn Write) -> io::Result<()> {
     let directions: Vec<usize> = (0..6).filter(|at| list.iter().any(|(_, direction, _)| direction == at)).collect();

@@ -7,7 +7,7 @@ use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use super::values;
 use ribopt::mesh::commands::Source;
 use ribopt::mesh::graph::Rule;
-use ribopt::mesh::ribs;
+use ribopt::mesh::ribs::{self, structure};
 use ribopt::mesh::section::Plane;
 use ribopt::ribs::law::VolumeLaw;
 
@@ -212,6 +212,8 @@ pub struct Ribs {
     pub volume: VolumeLaw,
     #[command(flatten)]
     pub limits: RibLimits,
+    #[command(flatten)]
+    pub structure: RibStructure,
     /// Overwrite files of the folder that were edited
     #[arg(long)]
     pub force: bool,
@@ -229,9 +231,10 @@ pub struct RibLimits {
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     pub elastic_modulus: Option<f64>,
     /// Line load
-    #[arg(long, value_name = "Q", allow_negative_numbers = true)]
+    #[arg(long, value_name = "Q", allow_negative_numbers = true, conflicts_with = "structure")]
     pub load: Option<f64>,
-    /// Stiffness: each line, as a beam between its ends, may sag by its span over this
+    /// Stiffness: each line, as a beam between its ends, may sag by its span over this; every node of a structure by the span of the supports
+    /// over this
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub sag_ratio: Option<f64>,
     /// Slenderness: h over b of rectangles and superellipses; of webs of H beams and walls of boxes 5 times, of flanges 4
@@ -245,6 +248,39 @@ pub struct RibLimits {
     /// Least thickness: of walls, webs and flanges, or the width of solid sections
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub thickness: Option<f64>,
+}
+
+/// The ribs as a structure.
+#[derive(Debug, Args)]
+pub struct RibStructure {
+    /// One structure, analysed as a whole under dead load and snow, instead of a beam per line: nodes where ribs meet, sections upright on
+    /// the surface, loads by the area each node carries
+    #[arg(long)]
+    pub structure: bool,
+    /// What holds it: boundary (of lines: ends where no other rib meets), lowest, or names and patterns of nodes as in v1,v7
+    #[arg(long, value_name = "boundary|lowest|NODES", requires = "structure", value_parser = values::held)]
+    pub supports: Option<structure::Held>,
+    /// The supports hold rotations, too
+    #[arg(long, requires = "structure")]
+    pub fixed: bool,
+    /// Weight of what lies on the ribs, per area of the surface [default: 0.5 kN/m²]; of lines without a surface per length
+    #[arg(long, value_name = "P", requires = "structure", allow_negative_numbers = true)]
+    pub dead: Option<f64>,
+    /// Snow per area on plan [default: 1 kN/m²]; of lines without a surface per length on plan
+    #[arg(long, value_name = "P", requires = "structure", allow_negative_numbers = true)]
+    pub snow: Option<f64>,
+    /// Weight of the ribs per volume [default: 77 kN/m³]
+    #[arg(long, value_name = "W", requires = "structure", allow_negative_numbers = true)]
+    pub density: Option<f64>,
+    /// Poisson's ratio [default: 0.3]
+    #[arg(long, value_name = "NU", requires = "structure", allow_negative_numbers = true)]
+    pub poisson: Option<f64>,
+    /// What stresses may reach under 1.35 times the dead load and 1.5 times snow [default: 141 N/mm², six tenths of 235]
+    #[arg(long, value_name = "F", requires = "structure", allow_negative_numbers = true)]
+    pub strength: Option<f64>,
+    /// Which sections are one: those at a station, at symmetric places, of a line, or all
+    #[arg(long, value_name = "station|symmetric|line|one", requires = "structure", value_parser = values::sharing)]
+    pub sections: Option<structure::Sharing>,
 }
 
 #[derive(Debug, Args)]

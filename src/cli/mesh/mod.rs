@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 pub use arguments::Stage;
-use arguments::{Check, Joined, Mesh, Method, New, Reconstruct, RibLimits, Ribs, Shown, Slice, Smooth, Trace};
+use arguments::{Check, Joined, Mesh, Method, New, Reconstruct, RibLimits, RibStructure, Ribs, Shown, Slice, Smooth, Trace};
 
 use super::failure::Failure;
 use super::output;
@@ -106,12 +106,27 @@ fn ribs(arguments: &Ribs) -> Result<u8, Failure> {
         volume: arguments.volume,
         force: arguments.force,
         title: arguments.title.clone().unwrap_or(defaults.title.clone()),
+        structure: arguments.structure.structure.then(|| structure(&arguments.structure, arguments.unit)),
         ..with_limits(defaults, &arguments.limits)
     };
     let report =
         commands::ribs_folder(&lines_of(&arguments.mesh, &arguments.joined), arguments.segments, &options, &arguments.out)?;
     tell(&arguments.shown, &report, |report, out| show::ribs(report, &arguments.out, out))?;
     Ok(0)
+}
+
+fn structure(own: &RibStructure, unit: Option<ribs::Unit>) -> ribs::structure::Structure {
+    let defaults = ribs::structure::Structure::with_unit(unit);
+    ribs::structure::Structure {
+        held: own.supports.clone().unwrap_or(defaults.held),
+        fixed: own.fixed,
+        dead: own.dead.unwrap_or(defaults.dead),
+        snow: own.snow.unwrap_or(defaults.snow),
+        density: own.density.unwrap_or(defaults.density),
+        poisson: own.poisson.unwrap_or(defaults.poisson),
+        strength: own.strength.unwrap_or(defaults.strength),
+        sharing: own.sections.unwrap_or(defaults.sharing),
+    }
 }
 
 fn with_limits(defaults: ribs::Options, limits: &RibLimits) -> ribs::Options {

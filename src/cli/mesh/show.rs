@@ -186,6 +186,20 @@ pub fn ribs(report: &RibsReport, folder: &Path, out: Out) -> Words {
         count(problem.variables, "variable"),
         short(problem.length)
     )?;
+    if let Some(structure) = &problem.structure {
+        let (nodes, supports) = (count(structure.nodes, "node"), count(structure.supports, "support"));
+        let loads = match (structure.dead, structure.snow) {
+            (Some(dead), Some(snow)) => format!(
+                "area {}, on plan {}; dead load {} besides the ribs, snow {}",
+                short(structure.area),
+                short(structure.plan_area),
+                short(dead),
+                short(snow)
+            ),
+            _ => "no surface: loads act along the ribs".into(),
+        };
+        writeln!(out, "structure: {nodes}, {supports}; {loads}")?;
+    }
     notes(&report.trace.notes, out)?;
     problem.warnings.iter().try_for_each(|warning| writeln!(out, "warning: {warning}"))?;
     writeln!(out, "solve it: ribopt solve {}", folder.join("problem.toml").display())

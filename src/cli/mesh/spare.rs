@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::Stage;
 use ribopt::files::{Inputs, Overwrites};
-use ribopt::mesh::ribs::FILES;
+use ribopt::mesh::ribs::{FILES, structure};
 
 /// Refuses outputs that are inputs, before anything is done.
 pub fn spare(stage: &Stage) -> Result<(), Overwrites> {
@@ -16,7 +16,8 @@ pub fn spare(stage: &Stage) -> Result<(), Overwrites> {
         Stage::Trace(own) => (vec![own.mesh.source().path], beside(&own.out)),
         Stage::Slice(own) => (vec![own.mesh.source().path], beside(&own.out)),
         Stage::Ribs(own) => {
-            let outputs: Vec<PathBuf> = FILES.iter().chain(&["mesh.json"]).map(|name| own.out.join(name)).collect();
+            let files = if own.structure.structure { structure::FILES.as_slice() } else { FILES.as_slice() };
+            let outputs: Vec<PathBuf> = files.iter().chain(&["mesh.json"]).map(|name| own.out.join(name)).collect();
             (vec![own.mesh.source().path], outputs)
         }
     };

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use ribopt::mesh::Vector;
 use ribopt::mesh::graph::Rule;
+use ribopt::mesh::ribs::structure::{Held, Sharing};
 use ribopt::mesh::ribs::{Bounds, SectionKind, Unit};
 use ribopt::mesh::section::Plane;
 use ribopt::ribs::law::VolumeLaw;
@@ -82,6 +83,23 @@ pub fn kind(text: &str) -> Result<SectionKind, String> {
 /// A unit of length.
 pub fn unit(text: &str) -> Result<Unit, String> {
     Unit::parse(text).ok_or_else(|| format!("a unit is one of {}", Unit::ALL.map(Unit::name).join(", ")))
+}
+
+/// What holds a structure.
+pub fn held(text: &str) -> Result<Held, String> {
+    match text.trim() {
+        "boundary" => Ok(Held::Boundary),
+        "lowest" => Ok(Held::Lowest),
+        "" => Err("say boundary, lowest, or the names of nodes, as in v1,v7".into()),
+        names => Ok(Held::Named(names.split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect())),
+    }
+}
+
+/// Which sections are one.
+pub fn sharing(text: &str) -> Result<Sharing, String> {
+    let known = || Sharing::NAMED.map(|(name, _)| name).join(", ");
+    let found = Sharing::NAMED.into_iter().find(|(name, _)| *name == text);
+    found.map(|(_, sharing)| sharing).ok_or_else(|| format!("sections are shared by one of {}", known()))
 }
 
 /// How edges become lines.

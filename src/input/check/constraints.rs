@@ -54,6 +54,12 @@ impl Assembly<'_> {
                 (Some(_), Scope::Ribs(_), Some(ribs)) => {
                     (Some(ItemScope::of(&self.problem, Collection::Ribs, ribs.clone())), Scope::Ribs(ribs))
                 }
+                (Some(_), Scope::Sections(_), Some(list)) => {
+                    (Some(ItemScope::of(&self.problem, Collection::Sections, list.clone())), Scope::Sections(list))
+                }
+                (Some(_), Scope::Nodes(_), Some(list)) => {
+                    (Some(ItemScope::of(&self.problem, Collection::Nodes, list.clone())), Scope::Nodes(list))
+                }
                 _ => (item_scope.clone(), scope.clone()),
             };
             let detail: Box<str> = choice.detail.clone();

@@ -1,11 +1,12 @@
 //! Constraints on responses that leave out the case, the station or the point: one row each.
 
 use super::Assembly;
-use crate::expression::ast::Requirement;
+use crate::expression::ast::{Collection, Requirement};
 use crate::expression::parse::parse_requirement;
 use crate::input::declaration::ConstraintEntry;
 use crate::input::source::Written;
 use crate::problem::glob::matches;
+use crate::problem::resolve::outer::names_outer;
 use crate::problem::resolve::{Chosen, ItemScope, Open, Report, Resolver, Stage};
 use crate::problem::structure::{Plane, Structure};
 use crate::sections;
@@ -20,13 +21,15 @@ pub(super) struct Choice {
     station: Option<f64>,
     point: Option<String>,
     sign: f64,
+    /// The item, where each is resolved by itself.
+    item: Option<(Collection, u32)>,
     /// How rows are told apart: `ULS, 0.5, top-left`.
     pub(super) detail: Box<str>,
 }
 
 impl Choice {
     pub(super) fn chosen(&self) -> Chosen<'_> {
-        Chosen { case: self.case, station: self.station, point: self.point.as_deref(), sign: self.sign }
+        Chosen { case: self.case, station: self.station, point: self.point.as_deref(), sign: self.sign, item: self.item }
     }
 }
 
@@ -53,7 +56,28 @@ impl Assembly<'_> {
             self.over_stations(&structure, &open, (case, name), items, &mut list);
         }
         self.say_many(entry, items, list.len());
-        Some(list)
+        Some(self.by_item(require, items, list))
+    }
+
+    /// Where a sum names the row's item, every item is resolved by itself.
+    fn by_item(
+        &mut self,
+        require: &Written,
+        items: Option<&ItemScope>,
+        list: Vec<(Choice, Option<Vec<u32>>)>,
+    ) -> Vec<(Choice, Option<Vec<u32>>)> {
+        let Some(items) = items.filter(|items| !items.grouped) else { return list };
+        let names = |requirement: &Requirement| names_outer(requirement, &self.names, &self.problem);
+        // A text that cannot be read is told where its rows are made.
+        if !parse_requirement(&require.text).is_ok_and(|requirement| names(&requirement)) {
+            return list;
+        }
+        let one = |(choice, ribs): (Choice, Option<Vec<u32>>)| {
+            let own = ribs.unwrap_or_else(|| items.members.clone());
+            let alone = move |index: u32| (Choice { item: Some((items.collection, index)), ..choice.clone() }, Some(vec![index]));
+            own.into_iter().map(alone)
+        };
+        list.into_iter().flat_map(one).collect()
     }
 
     fn over_stations(
@@ -75,7 +99,8 @@ impl Assembly<'_> {
                     let turned = (sign < 0.0).then(|| "torsion reversed".to_owned());
                     let parts = [name.clone(), station.map(|station| station.to_string()), point.clone(), turned];
                     let detail = parts.into_iter().flatten().collect::<Vec<_>>().join(", ").into();
-                    list.push((Choice { case, station, point: point.clone(), sign, detail }, ribs.clone()));
+                    let item = None;
+                    list.push((Choice { case, station, point: point.clone(), sign, item, detail }, ribs.clone()));
                 }
             }
         }

@@ -9,7 +9,7 @@ use crate::problem::Formula;
 use crate::problem::formula::What;
 
 impl Assembly<'_> {
-    /// Warns of load cases in no combination and no response, where there are responses at all.
+    /// Warns of load cases in no combination and no response and of combinations in no response, where there are responses at all.
     pub(super) fn say_unused_cases(&mut self) {
         let Some(structure) = self.problem.structure.clone() else { return };
         let mut mentioned = BTreeSet::new();
@@ -27,6 +27,16 @@ impl Assembly<'_> {
             if !mentioned.contains(&case) && !combined.contains(&case) {
                 let message = format!("load case `{name}` is in no combination and no response");
                 self.findings.warning(self.case_place(case), message, "add it to a combination, or leave its loads out");
+            }
+        }
+        for (at, combination) in structure.combinations.iter().enumerate() {
+            if !mentioned.contains(&((structure.cases.len() + at) as u32)) {
+                let message = format!("combination `{}` is in no response: nothing is limited under it", combination.name);
+                self.findings.warning(
+                    self.combination_place(at),
+                    message,
+                    "name it in a requirement or under `cases`, or leave it out",
+                );
             }
         }
     }

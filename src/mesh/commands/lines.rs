@@ -11,7 +11,7 @@ use crate::mesh::graph::{Graph, Rule};
 use crate::mesh::network::Network;
 use crate::mesh::stations::{self, Support};
 use crate::mesh::trace::{self, Line};
-use crate::mesh::{QuadMesh, Vector, ribs};
+use crate::mesh::{PolygonMesh, QuadMesh, Vector, ribs};
 
 /// The rib lines of a file, and what they run over.
 struct Lines {
@@ -110,7 +110,9 @@ pub struct RibsReport {
 pub fn ribs_folder(source: &Source, longest: f64, options: &ribs::Options, folder: &Path) -> Outcome<RibsReport> {
     let found = source.lines()?;
     let sliced = stations::slice(&*found.support, &found.lines, longest)?;
-    let problem = ribs::write_problem(&Network::new(&sliced)?, options, folder)?;
+    // Vertices have the same numbers in the file and in what was made of it.
+    let mesh = if options.structure.is_some() { source.polygons()?.0 } else { PolygonMesh::default() };
+    let problem = ribs::write_problem(&Network::new(&sliced)?, &mesh, options, folder)?;
     let report = RibsReport { trace: found.report, stations: stations::report(&sliced), problem };
     write_report(&folder.join("mesh.json"), &report)?;
     Ok(report)

@@ -17,6 +17,7 @@ mod off_binary;
 mod ply;
 mod stl;
 mod vtu;
+mod vtu_lines;
 
 use std::io::Cursor;
 use std::path::Path;
@@ -31,6 +32,7 @@ pub use off::read_off;
 pub use ply::read_ply;
 pub use stl::{read_stl, write_stl};
 pub use vtu::{CellData, write_vtu};
+pub use vtu_lines::{Polylines, Values, write_vtu_lines};
 
 use super::{PolygonMesh, Vector};
 use crate::files::{self, whole};

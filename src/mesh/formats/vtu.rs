@@ -20,18 +20,17 @@ pub struct CellData {
 /// Those of the writer.
 pub fn write_vtu(out: &mut impl Write, mesh: &PolygonMesh, data: &[CellData]) -> io::Result<()> {
     let cells = ordered(mesh);
-    writeln!(out, "<?xml version=\"1.0\"?>")?;
-    writeln!(out, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>")?;
-    writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.vertices.len(), cells.len())?;
+    begin(out, mesh.vertices.len(), cells.len())?;
     writeln!(out, "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">")?;
     for v in &mesh.vertices {
         writeln!(out, "{} {} {}", v.x, v.y, v.z)?;
     }
     writeln!(out, "</DataArray></Points>\n<Cells>")?;
-    write_cells(out, &cells)?;
+    let corners: Vec<&[u32]> = cells.iter().map(|(_, corners)| *corners).collect();
+    cells_of(out, &corners)?;
     writeln!(out, "</Cells>\n<CellData>")?;
     for column in data {
-        array(out, "Float64", &column.name)?;
+        array(out, "Float64", &column.name, 1)?;
         for (face, _) in &cells {
             match column.values.get(*face).filter(|value| value.is_finite()) {
                 Some(value) => writeln!(out, "{value}")?,
@@ -51,23 +50,31 @@ fn ordered(mesh: &PolygonMesh) -> Vec<(usize, &[u32])> {
     cells
 }
 
-fn write_cells(out: &mut impl Write, cells: &[(usize, &[u32])]) -> io::Result<()> {
-    array(out, "Int64", "connectivity")?;
-    for (_, cell) in cells {
-        let words: Vec<String> = cell.iter().map(u32::to_string).collect();
+/// Up to the points.
+pub(super) fn begin(out: &mut impl Write, points: usize, cells: usize) -> io::Result<()> {
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(out, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>")?;
+    writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")
+}
+
+/// Cells by their corners.
+pub(super) fn cells_of(out: &mut impl Write, cells: &[impl AsRef<[u32]>]) -> io::Result<()> {
+    array(out, "Int64", "connectivity", 1)?;
+    for cell in cells {
+        let words: Vec<String> = cell.as_ref().iter().map(u32::to_string).collect();
         writeln!(out, "{}", words.join(" "))?;
     }
     writeln!(out, "</DataArray>")?;
-    array(out, "Int64", "offsets")?;
+    array(out, "Int64", "offsets", 1)?;
     let mut end = 0;
-    for (_, cell) in cells {
-        end += cell.len();
+    for cell in cells {
+        end += cell.as_ref().len();
         writeln!(out, "{end}")?;
     }
     writeln!(out, "</DataArray>")?;
-    array(out, "UInt8", "types")?;
-    for (_, cell) in cells {
-        writeln!(out, "{}", cell_type(cell.len()))?;
+    array(out, "UInt8", "types", 1)?;
+    for cell in cells {
+        writeln!(out, "{}", cell_type(cell.as_ref().len()))?;
     }
     writeln!(out, "</DataArray>")
 }
@@ -82,7 +89,9 @@ fn cell_type(corners: usize) -> u8 {
     }
 }
 
-fn array(out: &mut impl Write, kind: &str, name: &str) -> io::Result<()> {
+/// The beginning of an array of so many numbers per point or cell.
+pub(super) fn array(out: &mut impl Write, kind: &str, name: &str, components: usize) -> io::Result<()> {
     let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
-    writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">")
+    let components = if components == 1 { String::new() } else { format!(" NumberOfComponents=\"{components}\"") };
+    writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"ascii\">")
 }

@@ -12,6 +12,7 @@
 
 mod folder;
 mod kinds;
+pub mod structure;
 mod text;
 mod unit;
 mod warnings;
@@ -25,6 +26,7 @@ use serde::Serialize;
 pub use kinds::SectionKind;
 pub use unit::Unit;
 
+use super::PolygonMesh;
 use super::formats::FormatError;
 use super::network::{Network, Rib, write_geometry};
 use crate::ribs::law::VolumeLaw;
@@ -70,6 +72,8 @@ pub struct Options {
     pub title: String,
     /// Overwrite files that were edited.
     pub force: bool,
+    /// The ribs as a structure, analysed as a whole; `None`: every line as a beam of its own.
+    pub structure: Option<structure::Structure>,
 }
 
 /// What the folder holds.
@@ -97,6 +101,7 @@ impl Options {
             thickness: kind.thickness() / metres,
             title: "Ribs of a quad mesh".into(),
             force: false,
+            structure: None,
         }
     }
 }
@@ -117,6 +122,16 @@ pub enum RibsError {
     UnknownDimension { kind: &'static str, dimension: String, known: String },
     #[error("bounds of {dimension}: lower {lower} is above upper {upper}; exchange them")]
     Crossed { dimension: String, lower: f64, upper: f64 },
+    #[error("{name} must be a number of at least 0, not {value}; choose another one")]
+    Negative { name: String, value: f64 },
+    #[error("Poisson's ratio must lie between -1 and 0.5, not at {value}; steel has 0.3")]
+    Poisson { value: f64 },
+    #[error(
+        "nothing holds the structure: the surface has no boundary; say which nodes do: --supports lowest, or by name, --supports v1,v7"
+    )]
+    NoSupports,
+    #[error("no node is called '{name}'; nodes are called as the mesh's vertices, {some}, …; a name with * or ? is a pattern")]
+    UnknownNode { name: String, some: String },
     #[error("there are no ribs: the mesh has no edges that carry any; flag some as l elements, or none for all")]
     NoRibs,
     #[error("{0} was edited since `mesh ribs` wrote it; choose another folder, or give --force to overwrite it")]
@@ -142,18 +157,50 @@ pub struct Report {
     pub written: BTreeMap<String, String>,
     /// Bounds that do not fit the spans.
     pub warnings: Vec<String>,
+    /// Supports and loads, where the ribs are a structure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure: Option<structure::StructureReport>,
 }
 
-/// Writes the folder.
+/// Writes the folder. The mesh is what a structure's loads act on, and what its boundary is of.
 ///
 /// # Errors
 /// Limits or bounds that make no sense; files that cannot be written.
-pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Result<Report, RibsError> {
+pub fn write_problem(network: &Network, mesh: &PolygonMesh, options: &Options, folder: &Path) -> Result<Report, RibsError> {
     if network.ribs.is_empty() {
         return Err(RibsError::NoRibs);
     }
     let bounds = checked_bounds(options)?;
-    let mut all: Vec<(&str, Vec<u8>)> = Vec::new();
+    let (all, structure, sections) = match &options.structure {
+        Some(own) => {
+            let (files, report, sections) = structure::files(network, mesh, options, own, &bounds)?;
+            (files, Some(report), sections)
+        }
+        None => (beams(network, options, &bounds, folder)?, None, network.sections.len()),
+    };
+    let written = folder::leave(folder, &all, options.force)?;
+    let mut lines: Vec<&str> = network.ribs.iter().map(|rib| rib.geometry.line.as_str()).collect();
+    lines.dedup();
+    Ok(Report {
+        ribs: network.ribs.len(),
+        sections,
+        variables: sections * bounds.iter().filter(|b| b.lower < b.upper).count(),
+        lines: lines.len(),
+        length: network.ribs.iter().map(|rib| rib.geometry.length()).sum(),
+        written,
+        warnings: warnings::find(network, options, &bounds),
+        structure,
+    })
+}
+
+/// The files of a problem in which every line is a beam.
+fn beams(
+    network: &Network,
+    options: &Options,
+    bounds: &[Bounds],
+    folder: &Path,
+) -> Result<Vec<(&'static str, Vec<u8>)>, RibsError> {
+    let mut all: Vec<(&'static str, Vec<u8>)> = Vec::new();
     let mut save = |name: &'static str, write: &dyn Fn(&mut dyn Write) -> Result<(), csv::Error>| {
         let mut content = Vec::new();
         let failed = |cause: csv::Error| FormatError::io(&folder.join(name), std::io::Error::other(cause));
@@ -163,28 +210,19 @@ pub fn write_problem(network: &Network, options: &Options, folder: &Path) -> Res
     };
     let [problem, sections, ribs, geometry] = FILES;
     save(problem, &|out| Ok(out.write_all(text::problem(options).as_bytes())?))?;
-    save(sections, &|out| write_sections(out, network, options.kind, &bounds))?;
+    save(sections, &|out| write_sections(out, network, options.kind, bounds))?;
     save(ribs, &|out| write_ribs(out, network, options))?;
     save(geometry, &|out| write_geometry(out, network.ribs.iter().map(|rib| &rib.geometry)))?;
-    let written = folder::leave(folder, &all, options.force)?;
-    let mut lines: Vec<&str> = network.ribs.iter().map(|rib| rib.geometry.line.as_str()).collect();
-    lines.dedup();
-    Ok(Report {
-        ribs: network.ribs.len(),
-        sections: network.sections.len(),
-        variables: network.sections.len() * bounds.iter().filter(|b| b.lower < b.upper).count(),
-        lines: lines.len(),
-        length: network.ribs.iter().map(|rib| rib.geometry.length()).sum(),
-        written,
-        warnings: warnings::find(network, options, &bounds),
-    })
+    Ok(all)
+}
+
+/// An error unless the number is positive.
+fn positive(name: &str, value: f64) -> Result<(), RibsError> {
+    let good = value > 0.0 && value.is_finite();
+    if good { Ok(()) } else { Err(RibsError::NotPositive { name: name.into(), value }) }
 }
 
 fn checked_bounds(options: &Options) -> Result<Vec<Bounds>, RibsError> {
-    let positive = |name: &str, value: f64| {
-        let good = value > 0.0 && value.is_finite();
-        if good { Ok(()) } else { Err(RibsError::NotPositive { name: name.into(), value }) }
-    };
     positive("the elastic modulus", options.elastic_modulus)?;
     positive("the load", options.load)?;
     positive("the sag ratio", options.sag_ratio)?;

@@ -12,7 +12,7 @@ fn network(mesh: crate::mesh::PolygonMesh) -> (QuadMesh, Network) {
 fn the_folder_holds_every_rib_once() {
     let (mesh, network) = network(generate::vault(6, 8, 10.0, 12.0, 3.0));
     let folder = tempfile::tempdir().unwrap();
-    let report = write_problem(&network, &Options::default(), folder.path()).unwrap();
+    let report = write_problem(&network, &PolygonMesh::default(), &Options::default(), folder.path()).unwrap();
     let edges: f64 = (0..mesh.edge_count() as u32).map(|e| mesh.edge_length(e)).sum();
     assert!((report.length / edges - 1.0).abs() < 1e-13);
     let ribs = std::fs::read_to_string(folder.path().join("ribs.csv")).unwrap();
@@ -35,7 +35,8 @@ fn sag_coefficients_of_a_line_sum_to_that_of_the_beam() {
 fn senseless_options_are_errors() {
     let (_, network) = network(generate::grid(1, 1, 1.0));
     let folder = tempfile::tempdir().unwrap();
-    let error = |options: Options| write_problem(&network, &options, folder.path()).unwrap_err().to_string();
+    let error =
+        |options: Options| write_problem(&network, &PolygonMesh::default(), &options, folder.path()).unwrap_err().to_string();
     assert_eq!(
         error(Options { load: -1.0, ..Default::default() }),
         "the load must be a positive number, not -1; choose another one"

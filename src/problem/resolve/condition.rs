@@ -89,6 +89,7 @@ impl Resolver<'_, '_> {
         match &ast.kind {
             AstKind::Text(text) => Some(Text::Literal(text.clone())),
             AstKind::Name(parts) if parts.len() == 1 => self.text_name(&parts[0]),
+            AstKind::Name(_) => Some(Text::Literal(self.outer_text(super::outer::named(ast)?)?)),
             _ => None,
         }
     }

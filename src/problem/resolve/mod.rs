@@ -2,6 +2,7 @@
 
 mod condition;
 mod name;
+pub mod outer;
 mod over;
 mod profile;
 pub mod response;
@@ -30,6 +31,10 @@ pub struct Resolver<'a, 'r> {
     world: World<'a>,
     /// The items whose own names hold.
     scope: Option<&'r ItemScope>,
+    /// The one item whose own names hold, where it is one.
+    item: Option<(Collection, u32)>,
+    /// The one item outside the sum this stands in, where it is one: `outer`.
+    outer: Option<(Collection, u32)>,
     /// The collection whose groups make the rows.
     group: Option<Collection>,
     report: &'r mut Report,
@@ -39,7 +44,7 @@ impl<'a, 'r> Resolver<'a, 'r> {
     /// A resolver; without a scope only global names hold.
     pub fn new(world: World<'a>, scope: Option<&'r ItemScope>, report: &'r mut Report) -> Self {
         let group = scope.filter(|scope| scope.grouped).map(|scope| scope.collection);
-        Resolver { world, scope, group, report }
+        Resolver { world, scope, item: world.chosen.item, outer: None, group, report }
     }
 
     /// The formula of a number; `None` after a mistake.

@@ -18,6 +18,9 @@ impl<'a> Resolver<'a, '_> {
     /// The value of a dotted name.
     pub(super) fn name(&mut self, parts: &[String], span: Span) -> Option<Value> {
         let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        if self.is_outer(&parts) {
+            return self.outer_number(&parts[1..], span).map(Value::Scalar);
+        }
         if self.scope.is_some()
             && let Some(formula) = self.own(&parts, span)
         {

@@ -42,7 +42,12 @@ impl Resolver<'_, '_> {
             }
             scope = ItemScope::of(self.world.problem, collection, list.to_vec());
         }
-        let body = Resolver { scope: Some(&scope), ..self.reborrowed() }.scalar(body)?;
+        let listed_members = listed.as_ref().map(|list| list.as_slice());
+        if let Some(one_by_one) = self.item_by_item((fold, collection), listed_members, &scope, body) {
+            return one_by_one.map(|formula| self.folded(formula));
+        }
+        let outer = self.item;
+        let body = Resolver { scope: Some(&scope), item: None, outer, ..self.reborrowed() }.scalar(body)?;
         let members = match (self.group == Some(collection), listed) {
             (true, listed) => Members::Group(listed),
             (false, Some(list)) => Members::Listed(list),
@@ -53,7 +58,8 @@ impl Resolver<'_, '_> {
 
     /// The members a `where` chooses.
     fn chosen(&mut self, condition: &Condition, scope: &ItemScope, span: Span) -> Option<Arc<Vec<u32>>> {
-        let filter = Resolver { scope: Some(scope), ..self.reborrowed() }.condition(condition)?;
+        let outer = self.item;
+        let filter = Resolver { scope: Some(scope), item: None, outer, ..self.reborrowed() }.condition(condition)?;
         match filter.choose(self.world.problem, scope) {
             Ok(list) => Some(Arc::new(list)),
             Err(message) => self.mistake(span, message, Some(Filter::REMEDY.into())),
@@ -64,12 +70,16 @@ impl Resolver<'_, '_> {
         if fold != Fold::Sum {
             return self.mistake(span, "no item is chosen, so there is none to take", Some("widen the `where`".into()));
         }
-        self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+        // Of items resolved one by one some have none: the last of a row has nothing beyond it.
+        if self.item.is_none() {
+            self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+        }
         Some(Formula::Constant(0.0))
     }
 
     /// The same resolver for a while.
-    fn reborrowed(&mut self) -> Resolver<'_, '_> {
-        Resolver { world: self.world, scope: self.scope, group: self.group, report: self.report }
+    pub(super) fn reborrowed(&mut self) -> Resolver<'_, '_> {
+        let Resolver { world, scope, item, outer, group, .. } = *self;
+        Resolver { world, scope, item, outer, group, report: self.report }
     }
 }

@@ -71,6 +71,8 @@ pub struct Chosen<'a> {
     pub point: Option<&'a str>,
     /// The sign of torsion's share in shear stresses.
     pub sign: f64,
+    /// The row's item, where each is resolved by itself.
+    pub item: Option<(Collection, u32)>,
 }
 
 /// What responses left open while a formula was resolved: the row has to be spread over it.

@@ -129,6 +129,14 @@ impl Canvas {
         self.words([x, y], anchor, content, Ink::Strong, "");
     }
 
+    /// A number over other lines: its centre at (x, y), on a rim of the ground's colour.
+    pub fn number(&mut self, [x, y]: [f64; 2], content: &str) {
+        if x.is_finite() && y.is_finite() {
+            let rim = format!(" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"", GROUND[0]);
+            self.words([x, y + 4.0], "middle", content, Ink::Strong, &format!("{rim} data-rim=\"\""));
+        }
+    }
+
     /// The same, less strong: notes and numbers.
     pub fn note(&mut self, x: f64, y: f64, anchor: &str, content: &str) {
         self.words([x, y], anchor, content, Ink::Middle, "");
@@ -212,6 +220,7 @@ impl Canvas {
 /// The colours for dark grounds; those for white stand at each element, for viewers that know no style sheets.
 fn dark() -> String {
     let mut css = format!("@media (prefers-color-scheme: dark) {{\n.ground {{ fill: {} }}\n", GROUND[1]);
+    let _ = writeln!(css, "text[data-rim] {{ stroke: {} }}", GROUND[1]);
     for ink in Ink::all() {
         let (class, [_, colour]) = (ink.class(), ink.colours());
         let _ = writeln!(css, ".{class}.s {{ stroke: {colour} }} .{class}.t, .{class}.a {{ fill: {colour} }}");

@@ -1,5 +1,5 @@
 //! Pictures of a run as SVG: how the backends converged, the sections before and after, the lines of ribs, their profiles, the
-//! network in space.
+//! network in space; what a structure does.
 
 mod axes;
 pub(super) mod canvas;
@@ -10,6 +10,7 @@ mod elevation;
 mod network;
 pub mod performance_profile;
 mod profiles;
+mod structure;
 
 pub use chains::longest_line;
 pub use convergence::{Trace, convergence};
@@ -17,6 +18,7 @@ pub use cross_sections::{cross_section, cross_sections};
 pub use elevation::elevation;
 pub use network::{Load, network};
 pub use profiles::profiles;
+pub use structure::{displaced, forces};
 
 use super::About;
 use canvas::{Canvas, Ink, Style};

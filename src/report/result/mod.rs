@@ -14,7 +14,7 @@ use serde::ser::{SerializeMap, Serializer};
 use super::{Findings, Volumes};
 use conflict::ConflictPart;
 pub use mistakes::{Mistake, write_mistakes};
-use point::{BoundsPart, ConstraintsPart, Point};
+use point::{BoundsPart, ConstraintsPart, Point, RibsPart};
 use solutions::{AgreementPart, MinimaPart, SolutionsPart, scope};
 
 /// The `format` of the file.
@@ -98,6 +98,9 @@ struct Tail<'a>(&'a Findings<'a>);
 impl Tail<'_> {
     fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         let (findings, outcome) = (self.0, self.0.outcome);
+        if let Some(table) = findings.utilisation.filter(|table| table.is_of_structure()) {
+            map.serialize_entry("ribs", &RibsPart(table))?;
+        }
         map.serialize_entry("solutions", &SolutionsPart(findings))?;
         map.serialize_entry("agreement", &outcome.agreement.map(AgreementPart::from))?;
         map.serialize_entry("conflict", &ConflictPart::of(findings))?;

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::{Serialize, Serializer};
 
+use super::super::utilisation::{Place, Table};
 use super::super::{Findings, Held, blocks};
 
 /// Values by variable name.
@@ -60,6 +61,26 @@ struct Row {
     active: &'static str,
     multiplier: f64,
     sensitivity: f64,
+    #[serde(flatten)]
+    place: PlacePart,
+}
+
+/// Where a row looks at the structure; left out where it does not.
+#[derive(Serialize, Default)]
+pub(super) struct PlacePart {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    case: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    station: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    point: Option<String>,
+}
+
+impl PlacePart {
+    pub(super) fn of(place: &Place) -> PlacePart {
+        let text = |text: &String| (!text.is_empty()).then(|| text.clone());
+        PlacePart { case: text(&place.case), station: place.station, point: text(&place.point) }
+    }
 }
 
 impl Row {
@@ -73,6 +94,37 @@ impl Row {
             active: held.side.as_str(),
             multiplier: held.multiplier,
             sensitivity: held.sensitivity,
+            place: findings.utilisation.and_then(|table| table.place(i)).map(PlacePart::of).unwrap_or_default(),
+        }
+    }
+}
+
+/// What uses every rib of a structure most.
+pub(super) struct RibsPart<'a>(pub &'a Table);
+
+impl Serialize for RibsPart<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.ribs.iter().map(|(name, most)| RibUse::of(self.0, name, *most)))
+    }
+}
+
+#[derive(Serialize)]
+struct RibUse<'a> {
+    rib: &'a str,
+    utilisation: Option<f64>,
+    governs: Option<&'a str>,
+    #[serde(flatten)]
+    place: PlacePart,
+}
+
+impl<'a> RibUse<'a> {
+    fn of(table: &'a Table, rib: &'a str, most: Option<(usize, f64)>) -> RibUse<'a> {
+        let declared = most.and_then(|(at, _)| table.constraints.get(table.uses.get(at)?.constraint));
+        RibUse {
+            rib,
+            utilisation: most.map(|(_, share)| share),
+            governs: declared.map(|declared| declared.written()),
+            place: declared.map(|declared| PlacePart::of(&declared.place)).unwrap_or_default(),
         }
     }
 }

@@ -130,7 +130,9 @@ fn volumes(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "mass of the ribs: {}{unit}", short(mass))?;
         }
     }
-    if findings.about.has_sections {
+    if findings.about.has_structure {
+        writeln!(out, "{}", super::structure::AXES)?;
+    } else if findings.about.has_sections {
         writeln!(out, "Ix is about the horizontal axis, the strong one of an upright rib; Eurocode calls it Iy.")?;
     }
     Ok(())

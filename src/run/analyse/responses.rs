@@ -152,34 +152,15 @@ fn list(
     let nodes = 0..structure.nodes.names.len() as u32;
     for direction in 0..6 {
         let known: Vec<u32> = nodes.clone().filter(|&node| statics.exists[node as usize][direction]).collect();
-        let held = |node: &u32| {
-            let spring = structure.supports.iter().any(|support| support.node == *node && support.springs[direction] != 0.0);
-            statics.fixed[*node as usize][direction] || spring
-        };
-        let grounded: Vec<u32> = structure.supports.iter().map(|support| support.node).filter(held).collect();
         ask(Row::Displacement(set, direction), Scope::Nodes(known), What::Displacement(direction as u8));
-        ask(Row::Reaction(set, direction), Scope::Nodes(grounded), What::Reaction(direction as u8));
+        ask(Row::Reaction(set, direction), Scope::Nodes(grounded(structure, direction)), What::Reaction(direction as u8));
     }
     let stations: Vec<f64> = match structure.members.len() > MANY_MEMBERS {
         true => vec![0.0, 0.5, 1.0],
         false => structure.stations.clone(),
     };
     for (name, force) in Force::NAMED {
-        let component = match force {
-            Force::N => 0..1,
-            Force::T => 5..6,
-            Force::Mz | Force::Vy => 1..3,
-            Force::My | Force::Vz => 3..5,
-        };
-        // A member hinged at both ends bends under loads on its span.
-        let bends = |member: usize| match force {
-            Force::N | Force::T => false,
-            Force::My | Force::Vz => !structure.members[member].pinned,
-            Force::Mz | Force::Vy => !structure.members[member].pinned && structure.plane == Plane::Space,
-        };
-        let carries = |member: usize| bends(member) || statics.members[member].components[component.clone()].contains(&true);
-        let ribs: Vec<u32> =
-            structure.members.iter().enumerate().filter(|(member, _)| carries(*member)).map(|(_, member)| member.rib).collect();
+        let ribs = carrying(structure, statics, force);
         for &station in &stations {
             ask(Row::Force(set, name, station), Scope::Ribs(ribs.clone()), What::Force(force, station));
         }
@@ -189,6 +170,30 @@ fn list(
             ask(Row::Stress(set, station, point), Scope::Ribs(ribs.clone()), What::Stress(station, Arc::from(point)));
         }
     }
+}
+
+/// Nodes that something holds in a direction: fixed, or by a spring.
+pub(in crate::run) fn grounded(structure: &Structure, direction: usize) -> Vec<u32> {
+    let held = structure.supports.iter().filter(|support| support.fixed[direction] || support.springs[direction] != 0.0);
+    held.map(|support| support.node).collect()
+}
+
+/// The ribs that a force can be in.
+pub(in crate::run) fn carrying(structure: &Structure, statics: &Statics, force: Force) -> Vec<u32> {
+    let component = match force {
+        Force::N => 0..1,
+        Force::T => 5..6,
+        Force::Mz | Force::Vy => 1..3,
+        Force::My | Force::Vz => 3..5,
+    };
+    // A member hinged at both ends bends under loads on its span.
+    let bends = |member: usize| match force {
+        Force::N | Force::T => false,
+        Force::My | Force::Vz => !structure.members[member].pinned,
+        Force::Mz | Force::Vy => !structure.members[member].pinned && structure.plane == Plane::Space,
+    };
+    let carries = |member: &usize| bends(*member) || statics.members[*member].components[component.clone()].contains(&true);
+    (0..structure.members.len()).filter(carries).map(|member| structure.members[member].rib).collect()
 }
 
 /// The critical points of normal stress, each with the ribs that have it.

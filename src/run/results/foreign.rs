@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// Whether a file of this name is none that a run leaves: by how it begins.
-pub(super) fn is_foreign(path: &Path) -> bool {
+pub(in crate::run) fn is_foreign(path: &Path) -> bool {
     let is_file = fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0);
     let mut head = Vec::new();
     let mut read = || fs::File::open(path).and_then(|file| file.take(400).read_to_end(&mut head));
@@ -19,7 +19,12 @@ pub(super) fn is_foreign(path: &Path) -> bool {
         "result.json" => !head.contains("\"ribopt-result/1\""),
         "variables.csv" => !begins(&["name,lower,start,upper,"]),
         "constraints.csv" => !begins(&["name,value,lower,upper,active,"]),
-        "utilisation.csv" => !begins(&[crate::report::utilisation::HEADER]),
+        // Earlier versions wrote what `limits.csv` holds under the other name.
+        "utilisation.csv" => !begins(&[crate::report::utilisation::HEADER, crate::report::utilisation::LIMITS_HEADER]),
+        "limits.csv" => !begins(&[crate::report::utilisation::LIMITS_HEADER]),
+        "displacements.csv" | "reactions.csv" => !begins(&[crate::report::structure::NODES_HEADER]),
+        "forces.csv" => !begins(&[crate::report::structure::FORCES_HEADER]),
+        "structure.vtu" => !begins(&["<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\""]),
         "sizes.csv" => !begins(&[crate::report::sizes::HEADER]),
         "volumes.csv" => !begins(&[crate::report::sizes::VOLUMES_HEADER]),
         name if name.ends_with(".svg") => !begins(&["<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 "]),

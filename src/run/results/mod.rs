@@ -3,6 +3,8 @@
 
 mod foreign;
 
+pub(super) use foreign::is_foreign;
+
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,10 +15,30 @@ use crate::files::{Inputs, whole};
 use crate::report::earlier::{self, Earlier};
 
 /// Tables and the result, besides logs and pictures.
-const TABLES: [&str; 6] = ["variables.csv", "constraints.csv", "utilisation.csv", "sizes.csv", "volumes.csv", "result.json"];
+const TABLES: [&str; 10] = [
+    "variables.csv",
+    "constraints.csv",
+    "limits.csv",
+    "utilisation.csv",
+    "sizes.csv",
+    "volumes.csv",
+    "displacements.csv",
+    "reactions.csv",
+    "forces.csv",
+    "result.json",
+];
 
 /// All pictures a run may leave.
-const PICTURES: [&str; 5] = ["convergence.svg", "sections.svg", "ribs.svg", "profiles.svg", "network.svg"];
+const PICTURES: [&str; 8] = [
+    "convergence.svg",
+    "sections.svg",
+    "ribs.svg",
+    "profiles.svg",
+    "network.svg",
+    "displaced.svg",
+    "forces.svg",
+    "structure.vtu",
+];
 
 /// Where a run that was cut short leaves its files beside a certified answer.
 const INTERRUPTED: &str = "interrupted";

@@ -25,6 +25,11 @@ impl Assembly<'_> {
         self.building.case_places.get(case as usize).copied().unwrap_or(Place::Whole)
     }
 
+    /// Where a combination is declared.
+    pub(in crate::input::check) fn combination_place(&self, combination: usize) -> Place {
+        self.building.combination_places.get(combination).copied().unwrap_or(Place::Whole)
+    }
+
     pub(super) fn combinations(&mut self, entries: &StructureEntries) {
         for entry in &entries.combinations {
             self.new_combination(&entry.name);
@@ -40,6 +45,7 @@ impl Assembly<'_> {
             }
             let combination = Combination { name: entry.name.text.as_str().into(), factors };
             self.building.structure.combinations.push(combination);
+            self.building.combination_places.push(entry.name.place);
         }
     }
 

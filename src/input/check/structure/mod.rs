@@ -46,6 +46,8 @@ pub(super) struct Building {
     cases: HashMap<Box<str>, u32>,
     /// Where cases are met for the first time.
     case_places: Vec<Place>,
+    /// Where combinations are declared.
+    combination_places: Vec<Place>,
     /// Where loads are given.
     load_places: Vec<Place>,
     targets: targets::Targets,

@@ -32,7 +32,7 @@ impl<'a> Resolver<'a, '_> {
         }
     }
 
-    pub(super) fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
+    pub(in crate::problem::resolve) fn section(&mut self, s: u32, name: &str, span: Span) -> Option<Formula> {
         let problem = self.world.problem;
         let number = *problem.sections.form.get(s as usize)?;
         if let Some(at) = sections::form(number).dimensions.iter().position(|given| *given == name) {
@@ -76,7 +76,7 @@ impl<'a> Resolver<'a, '_> {
         self.name(&parts, span)
     }
 
-    pub(super) fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
+    pub(in crate::problem::resolve) fn rib(&mut self, r: u32, name: &str, span: Span) -> Option<Formula> {
         match name {
             "length" if self.moves(r) => {
                 Some(Formula::Response(Arc::new(Response { set: 0, subject: Subject::Rib(r), what: What::Length })))
@@ -110,7 +110,13 @@ impl<'a> Resolver<'a, '_> {
     }
 
     /// The number in a data cell of one item; `None` where there is no such column.
-    pub(super) fn cell(&mut self, collection: Collection, item: u32, name: &str, span: Span) -> Option<Option<Formula>> {
+    pub(in crate::problem::resolve) fn cell(
+        &mut self,
+        collection: Collection,
+        item: u32,
+        name: &str,
+        span: Span,
+    ) -> Option<Option<Formula>> {
         let columns = self.columns(collection);
         let at = columns.iter().position(|column| column.name == name)?;
         self.report.used.push((collection, at as u32));
