@@ -2,7 +2,6 @@
 
 use super::{EvaluationError, Model};
 use crate::math::split_mix::SplitMix;
-use crate::math::within;
 
 /// Distances searched, in units of each variable's size.
 const RADII: [f64; 9] = [1e-6, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0];
@@ -114,7 +113,7 @@ fn moved(model: &dyn Model, start: &[f64], radius: f64, direction: &mut impl FnM
         let (lower, upper) = (meta.lower[j], meta.upper[j]);
         let room = if (upper - lower).is_finite() { upper - lower } else { f64::INFINITY };
         let size = if x == 0.0 { room.min(1.0) } else { x.abs().max(room.min(1.0)) };
-        within(x + radius * size * direction(j, start.len()), lower, upper)
+        (x + radius * size * direction(j, start.len())).max(lower).min(upper)
     };
     start.iter().enumerate().map(one).collect()
 }
