@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Scalar variables, column by column.
 #[derive(Debug, Clone, Default)]
 pub struct Variables {
-    /// Where each comes from; [`Problem::variable_name`] builds the name users see.
+    /// Where each comes from; [`super::Problem::variable_name`] builds the name users see.
     pub origin: Vec<Origin>,
     /// Names of `[variables]` entries, pointed at by [`Origin`].
     pub declared: Vec<Box<str>>,
@@ -44,7 +44,7 @@ pub enum Dimension {
     Constant(f64),
     /// Exactly one variable (its own, or a link such as `h = "depth"`).
     Variable(u32),
-    /// A computed value: index into [`Problem::dimension_formulas`].
+    /// A computed value: index into [`super::Problem::dimension_formulas`].
     Formula(u32),
 }
 
