@@ -49,6 +49,7 @@
 //! | [`solvers`] | our own interior points and augmented Lagrangian |
 //! | [`model`] | objective, rows and their exact sparse derivatives; views |
 //! | [`problem`] | the checked declaration; knows no TOML |
+//! | [`structure`] | bars and beams as expressions: flexibilities, forces, axes |
 //! | [`ribs`], [`sections`] | volumes and section properties |
 //! | [`expression`] | parse, differentiate, evaluate |
 //! | [`linear_algebra`] | sparse symmetric factorisation, by a library |

@@ -16,3 +16,13 @@ pub use determinant::{determinant, inverse, signed_area, signed_volume};
 pub use kronecker::kronecker;
 pub use polynomial::Polynomial;
 pub use quadrature::integrate;
+
+/// The value nearest to `value` between two limits, infinite where open: the one way a point is moved inside.
+///
+/// ```
+/// use ribopt::math::within;
+/// assert_eq!([within(3.0, 0.0, 2.0), within(-1.0, 0.0, f64::INFINITY), within(1.0, 0.0, 2.0)], [2.0, 0.0, 1.0]);
+/// ```
+pub fn within(value: f64, lower: f64, upper: f64) -> f64 {
+    value.max(lower).min(upper)
+}

@@ -1,6 +1,6 @@
 //! A model at one point.
 
-use super::{EvaluationError, Model};
+use super::{EvaluationError, Model, Pattern};
 
 /// Values and derivatives at one point: what is computed once there (states, factors, logarithms) is computed once. Slices are
 /// those of [`Model`]'s methods.
@@ -71,9 +71,20 @@ impl<M: Model + ?Sized> Evaluation for AtPoint<'_, M> {
 
     fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
         let pattern = &self.model.meta().hessian;
-        let mut values = vec![0.0; pattern.len()];
-        self.model.hessian(&self.x, weight, y, &mut values)?;
-        pattern.multiply_symmetric(&values, direction, product);
-        Ok(())
+        product_by_entries(self, pattern, (weight, y), direction, product)
     }
+}
+
+/// (weight·∇²f + Σ y_i ∇²c_i)·direction from the entries, where these are all there is.
+pub(super) fn product_by_entries(
+    at: &mut dyn Evaluation,
+    pattern: &Pattern,
+    (weight, y): (f64, &[f64]),
+    direction: &[f64],
+    product: &mut [f64],
+) -> Result<(), EvaluationError> {
+    let mut values = vec![0.0; pattern.len()];
+    at.hessian(weight, y, &mut values)?;
+    pattern.multiply_symmetric(&values, direction, product);
+    Ok(())
 }

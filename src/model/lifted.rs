@@ -3,20 +3,24 @@
 //! deformations and from member forces to the equilibrium of nodes.
 
 mod equations;
+mod maps;
+mod names;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub use super::states::States;
 use super::stiffness::{Factors, Mechanism, Stiffness};
-use super::views::composed::{Composed, Links};
+use super::views::composed::Composed;
 use super::views::mapped::{Mapped, Maps};
 use super::with_states::WithStates;
-use super::{AssemblyError, EvaluationError, Meta, Model, NameTable, Names, Own, RibModel, assemble, auxiliaries};
+use super::{AssemblyError, Evaluation, EvaluationError, Meta, Model, NameTable, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
-use crate::problem::statics::{Input, Statics};
-use crate::problem::structure::{Action, DIRECTIONS, Structure};
+use crate::problem::statics::Statics;
+use crate::problem::structure::Structure;
 use crate::problem::{Origin, Problem};
+use maps::{Known, deformations, links, outer_meta};
+use names::LiftedNames;
 
 /// A structure in design variables and displacements.
 ///
@@ -129,51 +133,6 @@ impl Lifted {
     }
 }
 
-/// The user's names, then those of the states and their equations.
-struct LiftedNames {
-    own: NameTable,
-    problem: Arc<Problem>,
-    states: States,
-    directions: Vec<(u32, u8)>,
-}
-
-impl LiftedNames {
-    fn state(&self, at: usize) -> String {
-        let structure = prepared(&self.problem).0;
-        let (node, direction) = self.directions[at % self.states.block];
-        let case = &structure.cases[at / self.states.block];
-        format!("{case}, {}, {}", &structure.nodes.names[node as usize], DIRECTIONS[usize::from(direction)])
-    }
-}
-
-impl Names for LiftedNames {
-    fn variable(&self, j: usize) -> String {
-        match j.checked_sub(self.states.first_variable) {
-            None => self.problem.variable_name(j),
-            Some(at) => format!("displacement[{}]", self.state(at)),
-        }
-    }
-
-    fn row(&self, i: usize) -> String {
-        match i.checked_sub(self.states.first_row) {
-            None => self.own.row(i),
-            Some(at) => format!("equilibrium[{}]", self.state(at)),
-        }
-    }
-
-    fn objective(&self) -> String {
-        self.own.objective()
-    }
-
-    fn rib_volume(&self, rib: usize) -> String {
-        self.own.rib_volume(rib)
-    }
-
-    fn row_place(&self, i: usize) -> Option<String> {
-        if i < self.states.first_row { self.own.row_place(i) } else { None }
-    }
-}
-
 /// The structure and what was prepared of it.
 fn prepared(problem: &Problem) -> (&Structure, &Statics) {
     let structure = problem.structure.as_deref().expect("only problems with a structure are lifted");
@@ -200,120 +159,6 @@ impl Numbering {
     }
 }
 
-/// What an input is made of where it is linear in the displacements: entries and constant.
-struct Linear<'a> {
-    structure: &'a Structure,
-    statics: &'a Statics,
-    numbering: &'a Numbering,
-    settled: HashMap<(u32, u32, u8), f64>,
-}
-
-impl Linear<'_> {
-    fn of(&self, factors: &[(u32, f64)], input: Input) -> (Vec<(u32, f64)>, f64) {
-        let (mut entries, mut constant): (Vec<(u32, f64)>, f64) = (Vec::new(), 0.0);
-        let mut add = |node: u32, direction: usize, coefficient: f64| {
-            for &(case, factor) in factors {
-                match self.numbering.variable(case, node, direction) {
-                    Some(variable) => entries.push((variable, factor * coefficient)),
-                    None => {
-                        let held = self.settled.get(&(case, node, direction as u8)).copied().unwrap_or(0.0);
-                        constant += factor * coefficient * held;
-                    }
-                }
-            }
-        };
-        match input {
-            Input::Displacement(node, direction) => add(node, direction, 1.0),
-            Input::Deformation(member, component) => {
-                let declared = &self.structure.members[member as usize];
-                let row = &self.statics.members[member as usize].rows[component];
-                for (at, &coefficient) in row.iter().enumerate().filter(|(_, coefficient)| **coefficient != 0.0) {
-                    add(if at < 6 { declared.start } else { declared.end }, at % 6, coefficient);
-                }
-            }
-        }
-        (entries, constant)
-    }
-}
-
-/// B and b of the forces: design variables as they are, then what members deform by in every case.
-fn deformations(structure: &Structure, statics: &Statics, numbering: &Numbering, maps: &mut Maps) {
-    for j in 0..numbering.states.first_variable as u32 {
-        maps.inputs.push([(j, 1.0)]);
-        maps.constants.push(0.0);
-    }
-    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
-    for case in 0..structure.cases.len() as u32 {
-        for at in 0..statics.inputs {
-            let (entries, constant) = linear.of(&[(case, 1.0)], statics.input(at));
-            maps.inputs.push(entries);
-            maps.constants.push(constant);
-        }
-    }
-}
-
-/// The first row of the forces that is a state equation is their number; before it stand the basic forces of members known by them.
-type Known = HashMap<(u32, u32, u8), u32>;
-
-/// What the user's rows look at, in every case and combination: basic forces, deformations of bars, displacements.
-fn links(structure: &Structure, statics: &Statics, numbering: &Numbering, known: &Known) -> Links {
-    let mut links = Links::default();
-    for j in 0..numbering.states.first_variable as u32 {
-        links.variables.push([(j, 1.0)]);
-        links.rows.push([]);
-        links.constants.push(0.0);
-    }
-    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
-    for set in 0..structure.load_sets() as u32 {
-        let factors = structure.factors(set);
-        for at in 0..statics.inputs {
-            let input = statics.input(at);
-            let force = |&(case, factor): &(u32, f64)| match input {
-                Input::Deformation(member, component) => Some((*known.get(&(case, member, component as u8))?, factor)),
-                Input::Displacement(..) => None,
-            };
-            let forces: Vec<(u32, f64)> = factors.iter().filter_map(force).collect();
-            let by_forces = matches!(input, Input::Deformation(member, _) if statics.members[member as usize].by_forces);
-            let (entries, constant) = if by_forces { (Vec::new(), 0.0) } else { linear.of(&factors, input) };
-            links.variables.push(entries);
-            links.rows.push(forces);
-            links.constants.push(constant);
-        }
-    }
-    links
-}
-
-/// Prescribed displacements by case, node and direction.
-fn settlements(structure: &Structure) -> HashMap<(u32, u32, u8), f64> {
-    let mut settled = HashMap::new();
-    for load in &structure.loads {
-        if let Action::Displacement { node, direction, value } = load.action {
-            *settled.entry((load.case, node, direction)).or_insert(0.0) += value;
-        }
-    }
-    settled
-}
-
-/// Bounds and starts of the design, open ones of the states; limits of the rows, the loads for the state equations.
-fn outer_meta(inner: &Meta, states: States, loads: &[f64]) -> Meta {
-    let (n, m) = (states.first_variable, states.first_row);
-    let number = states.block * states.blocks;
-    let with = |own: &[f64], value: f64| own[..n].iter().copied().chain(std::iter::repeat_n(value, number)).collect();
-    let followed = |own: &[f64]| own[..m].iter().copied().chain(loads.iter().copied()).collect();
-    Meta {
-        lower: with(&inner.lower, f64::NEG_INFINITY),
-        upper: with(&inner.upper, f64::INFINITY),
-        start: with(&inner.start, 0.0),
-        typical: with(&inner.typical, 0.0),
-        row_lower: followed(&inner.row_lower),
-        row_upper: followed(&inner.row_upper),
-        row_is_linear: inner.row_is_linear[..m].iter().copied().chain(std::iter::repeat_n(false, number)).collect(),
-        objective_is_linear: inner.objective_is_linear,
-        states: Some(states),
-        ..Meta::default()
-    }
-}
-
 impl WithStates for Lifted {
     fn solve_states(&self, x: &[f64], earlier: Option<Factors>) -> Result<(Vec<f64>, Factors), EvaluationError> {
         self.stiffness.solve_states(self.model.first(), x, earlier)
@@ -330,24 +175,8 @@ impl Model for Lifted {
         self.model.meta()
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.model.objective(x)
-    }
-
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.model.gradient(x, gradient)
-    }
-
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.constraints(x, values)
-    }
-
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.jacobian(x, values)
-    }
-
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.hessian(x, weight, y, values)
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        self.model.at(x)
     }
 
     fn own(&self) -> Own {

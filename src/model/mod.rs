@@ -3,6 +3,7 @@
 //! [`Model`] gives values and exact derivatives over plain slices, with sparsity patterns fixed once. Wrappers
 //! ([`evaluator::Evaluator`], scaled, logarithmic, bounds-only) are models themselves.
 
+use crate::math::within;
 mod affine;
 mod assemble;
 mod assembled;
@@ -133,7 +134,7 @@ impl Meta {
     /// Moves x inside the bounds, length n.
     pub fn clamp(&self, x: &mut [f64]) {
         for (x, (lower, upper)) in x.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
-            *x = x.max(*lower).min(*upper);
+            *x = within(*x, *lower, *upper);
         }
     }
 }

@@ -47,14 +47,8 @@ impl Walk<'_> {
                 let sections = self.members.iter().filter_map(|&r| ends.get(r as usize).copied()).collect();
                 self.note(Collection::Sections, *column, sections);
             }
-            Formula::Unary(_, operand) | Formula::Profile(_, operand) => self.formula(operand),
-            Formula::Binary(_, left, right) => {
-                self.formula(left);
-                self.formula(right);
-            }
-            Formula::Fold(_, list) => list.iter().for_each(|part| self.formula(part)),
             Formula::Over { collection, members, body, .. } => self.over(*collection, members, body),
-            _ => {}
+            other => other.children().for_each(|part| self.formula(part)),
         }
     }
 

@@ -154,6 +154,33 @@ pub enum Formula {
 }
 
 impl Formula {
+    /// The formulas it is made of, those behind names of definitions and sections not counted. Every walk goes through these, so that no
+    /// variant is forgotten.
+    pub fn children(&self) -> impl Iterator<Item = &Formula> {
+        let (first, second, list): (Option<&Formula>, Option<&Formula>, &[Formula]) = match self {
+            Formula::Unary(_, inner) | Formula::Profile(_, inner) => (Some(inner), None, &[]),
+            Formula::Over { body, .. } => (Some(body), None, &[]),
+            Formula::Binary(_, left, right) => (Some(left), Some(right), &[]),
+            Formula::Fold(_, list) => (None, None, list),
+            Formula::Constant(_)
+            | Formula::Variable(_)
+            | Formula::Definition(_)
+            | Formula::SectionProperty(..)
+            | Formula::RibVolume(_)
+            | Formula::Volume(_)
+            | Formula::OwnProperty(_)
+            | Formula::EndProperty(..)
+            | Formula::OwnLength
+            | Formula::OwnVolume
+            | Formula::OwnData(_)
+            | Formula::EndData(..)
+            | Formula::AtProperty(..)
+            | Formula::OwnMaterial(_)
+            | Formula::Response(_) => (None, None, &[]),
+        };
+        first.into_iter().chain(second).chain(list)
+    }
+
     /// Whether a response that needs an analysis stands inside, seen through definitions; `known` keeps what was found of these.
     pub(super) fn analyses(&self, problem: &super::Problem, known: &mut [Option<bool>]) -> bool {
         match self {
@@ -167,22 +194,16 @@ impl Formula {
                 known[at] = Some(found);
                 found
             }
-            Formula::Unary(_, inner) | Formula::Profile(_, inner) => inner.analyses(problem, known),
-            Formula::Binary(_, left, right) => left.analyses(problem, known) || right.analyses(problem, known),
-            Formula::Fold(_, list) => list.iter().any(|one| one.analyses(problem, known)),
-            Formula::Over { body, .. } => body.analyses(problem, known),
-            _ => false,
+            other => other.children().any(|one| one.analyses(problem, known)),
         }
     }
 
-    /// Whether a sag stands inside.
+    /// Whether a sag stands inside, outside of folds over items: those have lines of their own.
     pub fn is_of_line(&self) -> bool {
         match self {
             Formula::Response(response) => matches!(response.what, What::Sag(..)),
-            Formula::Unary(_, inner) => inner.is_of_line(),
-            Formula::Binary(_, left, right) => left.is_of_line() || right.is_of_line(),
-            Formula::Fold(_, list) => list.iter().any(Formula::is_of_line),
-            _ => false,
+            Formula::Over { .. } => false,
+            other => other.children().any(Formula::is_of_line),
         }
     }
 

@@ -56,17 +56,11 @@ impl Walk<'_> {
                     self.formula(definition);
                 }
             }
-            Formula::Unary(_, operand) | Formula::Profile(_, operand) => self.formula(operand),
-            Formula::Binary(_, left, right) => {
-                self.formula(left);
-                self.formula(right);
-            }
-            Formula::Fold(_, list) => list.iter().for_each(|part| self.formula(part)),
             Formula::Over { collection, members, body, .. } => {
                 self.members(*collection, members);
                 self.formula(body);
             }
-            _ => {}
+            other => other.children().for_each(|part| self.formula(part)),
         }
     }
 

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::named_numbers::{self, NamedNumbers};
 use super::text::listing;
 use crate::files;
+use crate::math::within;
 use crate::model::Model;
 
 /// Values by variable name, and multipliers by row name where there are any.
@@ -122,7 +123,7 @@ impl EarlierAnswer {
         let mut moved = Vec::new();
         for (j, value) in x.iter_mut().enumerate() {
             // Bounds are ordered and no NaN by the time a model exists.
-            let inside = value.max(meta.lower[j]).min(meta.upper[j]);
+            let inside = within(*value, meta.lower[j], meta.upper[j]);
             if inside != *value {
                 moved.push(model.variable_name(j));
                 *value = inside;

@@ -1,16 +1,13 @@
 //! How far limits are used: what uses every rib most, and every limit row by row, as CSV; grouped on the console.
 
+mod tables;
+
 use std::collections::HashMap;
 use std::io::{self, Write};
 
-use super::number::{exact, short, significant};
+use super::number::{short, significant};
 use super::text::{TextTable, count};
-
-/// How `limits.csv` begins.
-pub const LIMITS_HEADER: &str = "name,constraint,of,item,value,side,limit,percent";
-
-/// How `utilisation.csv` begins.
-pub const HEADER: &str = "rib,utilisation,governs,case,station,point,value,side,limit";
+pub use tables::{HEADER, LIMITS_HEADER};
 
 /// Lines of a group on the console.
 const MOST_LINES: usize = 12;
@@ -118,52 +115,6 @@ impl Table {
     /// Whether some limit looks at a structure.
     pub fn is_of_structure(&self) -> bool {
         self.constraints.iter().any(|declared| !declared.place.is_empty())
-    }
-
-    /// Writes [`HEADER`] and one line per rib; what no limit speaks of has empty cells.
-    ///
-    /// # Errors
-    /// Whatever the writer says.
-    pub fn write_ribs(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut table = csv::Writer::from_writer(out);
-        table.write_record(HEADER.split(','))?;
-        for (name, most) in &self.ribs {
-            let name = super::text::cell(name);
-            let found = most.and_then(|(at, share)| {
-                let used = self.uses.get(at)?;
-                Some((share, used, self.constraints.get(used.constraint)?))
-            });
-            let Some((share, used, declared)) = found else {
-                table.write_record([&*name, "", "", "", "", "", "", "", ""])?;
-                continue;
-            };
-            let Place { case, station, point } = &declared.place;
-            let (governs, case) = (super::text::cell(declared.written()), super::text::cell(case));
-            let station = station.map_or(String::new(), exact);
-            let side = if used.from_above { "<=" } else { ">=" };
-            let (share, value, limit) = (exact(share), exact(used.value), exact(used.limit));
-            table.write_record([&*name, &share, &*governs, &*case, &station, point, &value, side, &limit])?;
-        }
-        table.flush()
-    }
-
-    /// Writes [`LIMITS_HEADER`] and one line per limit.
-    ///
-    /// # Errors
-    /// Whatever the writer says.
-    pub fn write_limits(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut table = csv::Writer::from_writer(out);
-        table.write_record(LIMITS_HEADER.split(','))?;
-        for used in &self.uses {
-            let declared = self.constraints.get(used.constraint);
-            let (name, of) = declared.map_or(("", ""), |declared| (declared.name.as_str(), declared.of));
-            let side = if used.from_above { "<=" } else { ">=" };
-            let percent = used.share.map_or(String::new(), |share| exact(100.0 * share));
-            let row = super::text::cell(&self.row_name(used)).into_owned();
-            let (name, item) = (super::text::cell(name), super::text::cell(&used.item));
-            table.write_record([&*row, &*name, of, &*item, &exact(used.value), side, &exact(used.limit), &percent])?;
-        }
-        table.flush()
     }
 
     /// One line per constraint with its most used row, then sections and ribs.

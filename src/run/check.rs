@@ -1,6 +1,7 @@
 //! `check`: class, sizes and derivatives of a problem; solves nothing.
 
 use super::Subject;
+use crate::math::within;
 use crate::model::EvaluationError;
 use crate::model::derivative_check::{DerivativeCheck, derivative_check};
 
@@ -17,7 +18,7 @@ pub fn check(subject: &Subject) -> Result<DerivativeCheck, EvaluationError> {
         let share = 0.01 + 0.02 * (j as f64 * 0.618_033_988_749_895).fract();
         let room = if lower.is_finite() && upper.is_finite() { upper - lower } else { start.abs().max(1.0) };
         let towards = if upper - start >= start - lower { start + share * room } else { start - share * room };
-        towards.max(lower).min(upper)
+        within(towards, lower, upper)
     };
     let x: Vec<f64> = (0..meta.variables()).map(nudged).collect();
     derivative_check(subject.shown(), &x).or_else(|_| derivative_check(subject.shown(), &meta.start))

@@ -105,10 +105,9 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
-    let volumes = subject.volumes(&outcome.x);
     let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
     let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
-    let mass = sizes::mass(subject.problem(), &outcome.x);
+    let (volumes, mass) = (subject.volumes(&outcome.x), sizes::mass(subject.problem(), &outcome.x));
     let courses = courses(subject, &outcome.x).ok().flatten();
     let (model, class) = (subject.shown(), subject.class());
     let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };

@@ -1,7 +1,6 @@
 //! `angle`: an upright leg t × h and, at its foot, a level one to the overall width b, of the same thickness.
 
 use super::build::radius;
-use super::fibre::{Fibre, extreme};
 use super::pieces::{Piece, Pieces, about_centroid};
 use super::rectangles::{Band, plastic_modulus, torsion};
 use super::{Form, Given, Kind};
@@ -93,10 +92,6 @@ impl Kind for Angle {
             }
             _ => return pieces.property(graph, name).or_else(|| radius(self, graph, given, name)),
         })
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     /// The upright leg, and the level one beside it.

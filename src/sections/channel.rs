@@ -1,7 +1,6 @@
 //! `channel`: a web tw × hw on the left of two flanges b × tf, whose width b takes the web in; overall height h = hw + 2·tf.
 
 use super::build::{monomial, radius, symmetric_modulus};
-use super::fibre::{Fibre, extreme};
 use super::pieces::{Piece, Pieces, about_centroid};
 use super::rectangles::{Band, plastic_between_flanges, plastic_modulus, torsion};
 use super::{Form, Given, Kind, evaluate};
@@ -142,10 +141,6 @@ impl Kind for Channel {
             "Ixy" | "Imin" | "Wx_top" | "Wx_bottom" | "y_top" => return None,
             _ => return pieces.property(graph, name).or_else(|| radius(self, graph, given, name)),
         })
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     /// Web, lower and upper flange.

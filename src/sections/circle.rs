@@ -66,10 +66,7 @@ impl Kind for Circle {
 
     /// Points on the circumference: shear 4V/3A where it lies across the force, torsion T·d/2J.
     fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        let (diameter, area, torsion) =
-            (self.property(graph, given, "width")?, self.property(graph, given, "A")?, self.property(graph, given, "J")?);
-        let per_force = monomial(graph, 4.0 / 3.0, &[(area, -1.0)]);
-        around(graph, diameter, per_force, torsion, point)
+        around(self, graph, given, 4.0 / 3.0, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

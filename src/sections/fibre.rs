@@ -2,6 +2,7 @@
 //!
 //! Names say where a point lies: `top` is +y of the section (the member's +z), `right` is +x (the member's +y).
 
+use super::build::monomial;
 use super::{Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 
@@ -62,7 +63,7 @@ pub(super) fn direction(point: &str) -> Option<(i8, i8)> {
 
 /// A named place on the rectangle around the section: by the distances of its edges from the centroid where the kind tells them, else by
 /// half its width and height.
-pub(super) fn extreme(kind: &dyn Kind, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+pub(super) fn extreme<K: Kind + ?Sized>(kind: &K, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
     let (right, up) = direction(point)?;
     let mut edge = |side: i8, names: [&str; 2], extent: &str| -> Option<NodeId> {
         let name = match side {
@@ -87,9 +88,13 @@ pub(super) fn extreme(kind: &dyn Kind, graph: &mut Graph, given: &Given, point: 
 /// Eight points of a circle.
 pub(super) const AROUND: &[&str] = &["top", "top-right", "right", "bottom-right", "bottom", "bottom-left", "left", "top-left"];
 
-/// A named point on a circle; `per_force` is the shear stress per force at the ends of the diameter across it, elsewhere it falls off with
-/// the cosine. In the centre there is neither bending nor torsion.
-pub(super) fn around(graph: &mut Graph, diameter: NodeId, per_force: NodeId, torsion: NodeId, point: &str) -> Option<Fibre> {
+/// A named point on a circle. `factor`/A is the shear stress per force at the ends of the diameter across it (Timoshenko, Strength of
+/// Materials I, §26: 4/3 of the mean in a full circle, twice the mean in a thin tube); elsewhere it falls off with the cosine. In the
+/// centre there is neither bending nor torsion.
+pub(super) fn around<K: Kind + ?Sized>(kind: &K, graph: &mut Graph, given: &Given, factor: f64, point: &str) -> Option<Fibre> {
+    let (diameter, area) = (kind.property(graph, given, "width")?, kind.property(graph, given, "A")?);
+    let torsion = kind.property(graph, given, "J")?;
+    let per_force = monomial(graph, factor, &[(area, -1.0)]);
     let (right, up) = direction(point)?;
     let size = f64::from(right).hypot(f64::from(up));
     if size == 0.0 {

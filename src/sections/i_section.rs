@@ -1,7 +1,6 @@
 //! `i-section`: an I with two different flanges, a web tw × hw between a flange b_top × tf_top and one b_bottom × tf_bottom.
 
 use super::build::{monomial, radius, symmetric_modulus};
-use super::fibre::{Fibre, extreme};
 use super::pieces::{Piece, Pieces};
 use super::rectangles::{Band, on_axis, plastic_modulus, torsion};
 use super::{Form, Given, Kind, evaluate};
@@ -129,10 +128,6 @@ impl Kind for ISection {
             "Ixy" | "Imin" | "Wy_left" | "Wy_right" | "x_left" | "x_right" => return None,
             _ => return pieces.property(graph, name).or_else(|| radius(self, graph, given, name)),
         })
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     /// Web, upper and lower flange.

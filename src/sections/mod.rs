@@ -111,8 +111,10 @@ pub trait Kind: Sync {
         Points { normal: fibre::CORNERS, upright: fibre::UPRIGHT, shear: &[] }
     }
 
-    /// A point by its name; `None` for a name it does not know.
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre>;
+    /// A point by its name, without shear stresses unless the kind knows them; `None` for a name it does not know.
+    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
+        fibre::extreme(self, graph, given, point)
+    }
 
     /// The areas of the parts whose frusta make up a rib's volume: the whole area, or web and flanges.
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId>;

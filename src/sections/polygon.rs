@@ -1,7 +1,6 @@
 //! `polygon`: any simple polygon, with or without holes, its points times a `scale`, or times `scale_x` across and `scale_y` upwards; note 2.5.
 
 use super::build::monomial;
-use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::Polygon as Shape;
@@ -97,10 +96,6 @@ impl Kind for Polygon {
         };
         let powers: Vec<_> = [(x, x_power), (y, y_power)].into_iter().filter(|(_, power)| *power > 0.0).collect();
         Some(monomial(graph, factor, &powers))
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -7,7 +7,6 @@
 //! are mitred or cut depends on the points alone, never on the thicknesses.
 
 use super::build::{extreme, monomial};
-use super::fibre::{self, Fibre};
 use super::outline::Outline;
 use super::{Form, Given, Kind, not_positive};
 use crate::expression::graph::{Graph, NodeId};
@@ -178,10 +177,6 @@ impl Kind for Polyline {
             "clear" => outline.clear(graph),
             _ => None,
         }
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        fibre::extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use super::build::monomial;
 use super::defaults::{Defaults, fixed_number, length};
-use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Unary;
@@ -66,10 +65,6 @@ impl Kind for Superellipse {
             }
             _ => return None,
         })
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {

@@ -3,7 +3,6 @@
 
 use super::build::{monomial, radius};
 use super::defaults::{Defaults, length};
-use super::fibre::{Fibre, extreme};
 use super::{Form, Given, Kind};
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -38,10 +37,6 @@ impl Kind for Diamond {
 
     fn explain_upper_bound(&self, _: &Form, dimension: &str, section: &str) -> Option<String> {
         Some(format!("{section}.{dimension} cuts like a diamond"))
-    }
-
-    fn fibre(&self, graph: &mut Graph, given: &Given, point: &str) -> Option<Fibre> {
-        extreme(self, graph, given, point)
     }
 
     fn forms(&self) -> &'static [Form] {

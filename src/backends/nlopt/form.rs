@@ -1,6 +1,7 @@
 //! From the one form to NLopt's: minimise f(w) subject to g(w) ≤ 0, h(w) = 0 and bounds with room between them.
 
 use super::independent;
+use crate::math::within;
 use crate::model::views::scaled::{Scaled, Scales};
 use crate::model::{EvaluationError, Meta, Model};
 
@@ -185,7 +186,7 @@ impl<'a> Form<'a> {
 
 fn clamped(mut point: Vec<f64>, meta: &Meta) -> Vec<f64> {
     for (j, value) in point.iter_mut().enumerate() {
-        *value = value.max(meta.lower[j]).min(meta.upper[j]);
+        *value = within(*value, meta.lower[j], meta.upper[j]);
     }
     point
 }

@@ -12,6 +12,7 @@ use crate::certificate::point::Point;
 use crate::certificate::residuals::worst_complementarity;
 use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
 use crate::linear_algebra::FactorizationError;
+use crate::math::within;
 use crate::model::Model;
 
 /// Directions bending less than this, in units of σ, are followed: an inflection may hide as near as the slope test allows.
@@ -248,7 +249,7 @@ impl<'w, 'p> Walk<'w, 'p> {
         meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
         let slopes = self.free.iter().map(|&j| -total[j] * point.sizes[j] / point.scale());
         let lack = |(k, &i): (usize, &usize)| {
-            let inside = rows[i].max(meta.row_lower[i]).min(meta.row_upper[i]);
+            let inside = within(rows[i], meta.row_lower[i], meta.row_upper[i]);
             let to = if self.may_be_left[k] { inside } else { point.row_limit(i, self.multipliers.rows[i]) };
             (to - rows[i]) / self.kkt.slope(k)
         };

@@ -16,14 +16,14 @@ use crate::sections::{self, Length};
 
 /// Templates by what they stand for and by shape.
 #[derive(Default)]
-pub(super) struct Templates(HashMap<(Work, Vec<u32>), Template>);
+pub(super) struct Templates<'a>(HashMap<(Work<'a>, Vec<u32>), Template>);
 
 /// The objective or one row while it is added up.
-pub(super) struct Summation<'a> {
+pub(super) struct Summation<'a, 's> {
     pub problem: &'a Problem,
-    pub kernels: &'a mut Kernels,
-    pub templates: &'a mut Templates,
-    pub groups: &'a mut Groups,
+    pub kernels: &'s mut Kernels,
+    pub templates: &'s mut Templates<'a>,
+    pub groups: &'s mut Groups,
     pub affine: Affine,
     /// The row; `None` in the objective.
     pub row: Option<u32>,
@@ -31,7 +31,7 @@ pub(super) struct Summation<'a> {
     pub elements: usize,
 }
 
-impl Summation<'_> {
+impl Summation<'_, '_> {
     fn label(&self, rib: Option<u32>) -> Label {
         match (self.row, rib) {
             (Some(row), _) => Label::Row(row),
@@ -41,7 +41,7 @@ impl Summation<'_> {
     }
 }
 
-impl Sink for Summation<'_> {
+impl<'a> Sink<'a> for Summation<'a, '_> {
     /// Closed forms where the ends' dimensions are variables of their own.
     fn volume(&mut self, rib: u32, law: VolumeLaw, weight: f64) -> bool {
         let problem = self.problem;
@@ -69,7 +69,7 @@ impl Sink for Summation<'_> {
         true
     }
 
-    fn piece(&mut self, piece: &Piece) -> Result<(), TapeError> {
+    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError> {
         let label = self.label(piece.rib);
         let mut compile = |lowering: &mut Lowering| {
             let root = piece.lower(lowering);

@@ -95,7 +95,7 @@ struct Geometric {
 
 impl Judge<'_> {
     /// What every row of a constraint (with this left side) is.
-    fn rows(&self, constraint: &Constraint, left: &Formula) -> Result<RowStructure<'_>, AssemblyError> {
+    fn rows<'s>(&'s self, constraint: &Constraint, left: &'s Formula) -> Result<RowStructure<'s>, AssemblyError> {
         let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), RowStructure::new(self.problem));
         for item in 0..constraint.scope.rows() {
             survey.add(left, &mut walk, context(&constraint.scope, item)).map_err(|cause| AssemblyError {
@@ -106,7 +106,7 @@ impl Judge<'_> {
         Ok(survey)
     }
 
-    fn objective(&self, formula: &Formula) -> Result<RowStructure<'_>, AssemblyError> {
+    fn objective<'s>(&'s self, formula: &'s Formula) -> Result<RowStructure<'s>, AssemblyError> {
         let (mut walk, mut survey) = (Walk::new(self.problem, self.facts), RowStructure::new(self.problem));
         let surveyed = survey.add(formula, &mut walk, Context::GLOBAL);
         surveyed.map_err(|cause| AssemblyError { place: "the objective".into(), cause })?;

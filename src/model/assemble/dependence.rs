@@ -49,10 +49,7 @@ impl Dependence {
         match formula {
             Formula::Over { .. } | Formula::Volume(_) | Formula::RibVolume(_) | Formula::OwnVolume => true,
             Formula::Definition(definition) => self.definition_reaches[*definition as usize],
-            Formula::Unary(_, inner) => self.reaches_items(inner),
-            Formula::Binary(_, left, right) => self.reaches_items(left) || self.reaches_items(right),
-            Formula::Fold(_, list) => list.iter().any(|one| self.reaches_items(one)),
-            _ => false,
+            other => other.children().any(|one| self.reaches_items(one)),
         }
     }
 
@@ -60,16 +57,20 @@ impl Dependence {
     pub fn is_constant(&self, formula: &Formula) -> bool {
         match formula {
             Formula::OwnLength => !self.lengths_vary,
-            Formula::Constant(_) | Formula::OwnData(_) | Formula::OwnMaterial(_) | Formula::EndData(..) => true,
+            Formula::Variable(_)
+            | Formula::RibVolume(_)
+            | Formula::Volume(_)
+            | Formula::OwnProperty(_)
+            | Formula::EndProperty(..)
+            | Formula::AtProperty(..)
+            | Formula::OwnVolume
+            | Formula::Profile(..)
+            | Formula::Response(_) => false,
             Formula::Definition(definition) => self.definition_constant[*definition as usize],
             Formula::SectionProperty(section, _) => {
                 self.section_constant.get(*section as usize).is_some_and(|constant| *constant)
             }
-            Formula::Unary(_, inner) => self.is_constant(inner),
-            Formula::Binary(_, left, right) => self.is_constant(left) && self.is_constant(right),
-            Formula::Fold(_, list) => list.iter().all(|one| self.is_constant(one)),
-            Formula::Over { body, .. } => self.is_constant(body),
-            _ => false,
+            other => other.children().all(|one| self.is_constant(one)),
         }
     }
 }

@@ -146,14 +146,14 @@ impl Rows {
         Ok(rows)
     }
 
-    fn add(
+    fn add<'a>(
         &mut self,
-        (left, right): (&Formula, &Limit),
+        (left, right): (&'a Formula, &Limit),
         context: Context,
         origin: RowOrigin,
-        walk: &mut Walk,
+        walk: &mut Walk<'a>,
         kernels: &mut Kernels,
-        templates: &mut Templates,
+        templates: &mut Templates<'a>,
     ) -> Result<(), TapeError> {
         let row = Some(self.affine.len() as u32);
         let (problem, groups) = (walk.problem, &mut self.groups);

@@ -26,7 +26,7 @@ struct Shape {
 pub(super) struct RowStructure<'a> {
     problem: &'a Problem,
     shapes: Vec<Shape>,
-    known: HashMap<(Work, Vec<u32>), usize>,
+    known: HashMap<(Work<'a>, Vec<u32>), usize>,
     /// Pieces of the row being collected, and the most of any row.
     pieces: usize,
     most_pieces: usize,
@@ -47,7 +47,7 @@ impl<'a> RowStructure<'a> {
     }
 
     /// Adds one row's formula.
-    pub fn add(&mut self, formula: &Formula, walk: &mut Walk, context: Context) -> Result<(), TapeError> {
+    pub fn add(&mut self, formula: &'a Formula, walk: &mut Walk<'a>, context: Context) -> Result<(), TapeError> {
         self.pieces = 0;
         let done = walk.visit(formula, 1.0, context, self);
         self.most_pieces = self.most_pieces.max(self.pieces);
@@ -142,8 +142,8 @@ fn joined(a: Curvature, b: Curvature) -> Curvature {
     }
 }
 
-impl Sink for RowStructure<'_> {
-    fn piece(&mut self, piece: &Piece) -> Result<(), TapeError> {
+impl<'a> Sink<'a> for RowStructure<'a> {
+    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError> {
         self.pieces += 1;
         let bounds = &self.problem.variables;
         let range = |&j: &u32| Interval::new(bounds.lower[j as usize], bounds.upper[j as usize]);

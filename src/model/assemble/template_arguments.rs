@@ -116,9 +116,9 @@ impl TemplateArguments {
                 }
                 true
             }
-            Formula::Unary(_, inner) => self.link(problem, section, inner),
-            Formula::Binary(_, left, right) => self.link(problem, section, left) && self.link(problem, section, right),
-            Formula::Fold(_, list) => list.iter().all(|one| self.link(problem, section, one)),
+            Formula::Unary(..) | Formula::Binary(..) | Formula::Fold(..) => {
+                formula.children().all(|one| self.link(problem, section, one))
+            }
             _ => false,
         }
     }

@@ -59,12 +59,9 @@ impl TemplateKey {
                     self.visit(problem, &problem.definitions[*definition as usize].1);
                 }
             }
-            Formula::Unary(_, inner) => self.visit(problem, inner),
-            Formula::Binary(_, left, right) => {
-                self.visit(problem, left);
-                self.visit(problem, right);
+            Formula::Unary(..) | Formula::Binary(..) | Formula::Fold(..) => {
+                formula.children().for_each(|one| self.visit(problem, one));
             }
-            Formula::Fold(_, list) => list.iter().for_each(|one| self.visit(problem, one)),
             Formula::SectionProperty(section, property) => self.named(problem, *section, &property.0),
             Formula::OwnProperty(_) => self.own = true,
             Formula::AtProperty(..) => (self.from, self.to) = (true, true),
@@ -126,12 +123,9 @@ impl TemplateKey {
         match formula {
             Formula::OwnProperty(property) => self.named(problem, section, &property.0),
             Formula::OwnData(_) => {}
-            Formula::Unary(_, inner) => self.link(problem, section, inner),
-            Formula::Binary(_, left, right) => {
-                self.link(problem, section, left);
-                self.link(problem, section, right);
+            Formula::Unary(..) | Formula::Binary(..) | Formula::Fold(..) => {
+                formula.children().for_each(|one| self.link(problem, section, one));
             }
-            Formula::Fold(_, list) => list.iter().for_each(|one| self.link(problem, section, one)),
             other => self.visit(problem, other),
         }
     }

@@ -15,16 +15,33 @@ use crate::ribs::law::VolumeLaw;
 
 /// What a piece stands for; pieces of the same work and shape are alike but for their variables and numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Work {
-    /// A formula, known by its address: formulas stay where they are while the problem is borrowed.
-    Formula(usize),
+pub(super) enum Work<'p> {
+    Formula(This<'p>),
     Volume(VolumeLaw),
 }
 
+/// One formula of the problem: equal to itself alone, however alike others are. It is borrowed, and so stays where it is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct This<'p>(&'p Formula);
+
+impl PartialEq for This<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.0, other.0)
+    }
+}
+
+impl Eq for This<'_> {}
+
+impl std::hash::Hash for This<'_> {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        std::ptr::hash(self.0, state);
+    }
+}
+
 /// `weight · formula` of one item.
-pub(super) struct Piece<'p> {
+pub(super) struct Piece<'a, 'p> {
     /// What it stands for; `None` where it shares nothing with others.
-    pub work: Option<Work>,
+    pub work: Option<Work<'a>>,
     /// The item's variables, numbers and shape, where it may share.
     pub gathered: &'p TemplateArguments,
     pub weight: f64,
@@ -35,7 +52,7 @@ pub(super) struct Piece<'p> {
     lower: &'p dyn Fn(&mut Lowering) -> NodeId,
 }
 
-impl Piece<'_> {
+impl Piece<'_, '_> {
     /// The piece as a graph over local slots, which are given out in the order of `gathered`.
     pub fn lower(&self, lowering: &mut Lowering) -> NodeId {
         if self.work.is_some() {
@@ -46,7 +63,7 @@ impl Piece<'_> {
 }
 
 /// What is done with the pieces.
-pub(super) trait Sink {
+pub(super) trait Sink<'a> {
     /// Takes a rib's volume in closed form; false where there is none, and its piece comes instead.
     fn volume(&mut self, rib: u32, law: VolumeLaw, weight: f64) -> bool {
         let _ = (rib, law, weight);
@@ -54,14 +71,14 @@ pub(super) trait Sink {
     }
 
     /// Takes a piece.
-    fn piece(&mut self, piece: &Piece) -> Result<(), TapeError>;
+    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError>;
 }
 
 /// Walks formulas of one problem.
 pub(super) struct Walk<'a> {
     pub problem: &'a Problem,
     facts: &'a Dependence,
-    plans: HashMap<Work, TemplateKey>,
+    plans: HashMap<Work<'a>, TemplateKey>,
     gathered: TemplateArguments,
     /// Definitions opened in the formula being visited.
     opened: usize,
@@ -76,14 +93,26 @@ impl<'a> Walk<'a> {
     }
 
     /// Hands the pieces of `weight · formula` to the sink.
-    pub fn visit(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+    pub fn visit(
+        &mut self,
+        formula: &'a Formula,
+        weight: f64,
+        context: Context,
+        sink: &mut dyn Sink<'a>,
+    ) -> Result<(), TapeError> {
         self.opened = 0;
         self.take_apart(formula, weight, context, sink)
     }
 
-    fn take_apart(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+    fn take_apart(
+        &mut self,
+        formula: &'a Formula,
+        weight: f64,
+        context: Context,
+        sink: &mut dyn Sink<'a>,
+    ) -> Result<(), TapeError> {
         if !self.facts.reaches_items(formula) {
-            let (work, problem) = (Work::Formula(std::ptr::from_ref(formula) as usize), self.problem);
+            let (work, problem) = (Work::Formula(This(formula)), self.problem);
             self.plans.entry(work).or_insert_with(|| TemplateKey::of(problem, formula));
             return self.piece(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
         }
@@ -131,7 +160,7 @@ impl<'a> Walk<'a> {
     }
 
     /// What cannot be taken apart is one piece that shares nothing.
-    fn whole(&mut self, formula: &Formula, weight: f64, context: Context, sink: &mut dyn Sink) -> Result<(), TapeError> {
+    fn whole(&mut self, formula: &'a Formula, weight: f64, context: Context, sink: &mut dyn Sink<'a>) -> Result<(), TapeError> {
         let (plan, gathered) = (TemplateKey::default(), TemplateArguments::default());
         let lower = |lowering: &mut Lowering| lowering.formula(formula, context);
         sink.piece(&Piece { work: None, gathered: &gathered, weight, rib: None, plan: &plan, item: context.item, lower: &lower })
@@ -150,7 +179,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn volume(&mut self, rib: u32, total: Total, weight: f64, sink: &mut dyn Sink) -> Result<(), TapeError> {
+    fn volume(&mut self, rib: u32, total: Total, weight: f64, sink: &mut dyn Sink<'a>) -> Result<(), TapeError> {
         let law = law_of(self.problem, rib, total);
         if sink.volume(rib, law, weight) {
             return Ok(());
@@ -163,11 +192,11 @@ impl<'a> Walk<'a> {
     /// Hands over a piece whose plan is known.
     fn piece(
         &mut self,
-        work: Work,
+        work: Work<'a>,
         weight: f64,
         item: Item,
         rib: Option<u32>,
-        sink: &mut dyn Sink,
+        sink: &mut dyn Sink<'a>,
         lower: &dyn Fn(&mut Lowering) -> NodeId,
     ) -> Result<(), TapeError> {
         let plan = &self.plans[&work];

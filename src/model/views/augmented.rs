@@ -4,7 +4,9 @@
 //! s = t cut to [c_l, c_u], it is φ(x) = f(x) + ρ/2·Σ(t_i − s_i)². Equalities, one-sided and two-sided rows all follow
 //! that formula; ρ·(t − s) is the next estimate of the multipliers, and ∇φ is ∇L at that estimate.
 
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::math::within;
+use crate::model::evaluation::product_by_entries;
+use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern};
 
 /// φ for given multipliers and penalty; see the module's page.
 pub struct Augmented<M> {
@@ -72,17 +74,9 @@ impl<M: Model> Augmented<M> {
         let meta = self.model.meta();
         let estimate = |(i, &value): (usize, &f64)| {
             let shifted = value + self.multipliers[i] / self.penalty;
-            self.penalty * (shifted - shifted.max(meta.row_lower[i]).min(meta.row_upper[i]))
+            self.penalty * (shifted - within(shifted, meta.row_lower[i], meta.row_upper[i]))
         };
         rows.iter().enumerate().map(estimate).collect()
-    }
-
-    fn rows(&self, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let mut rows = vec![0.0; self.model.meta().rows()];
-        if !rows.is_empty() {
-            self.model.constraints(x, &mut rows)?;
-        }
-        Ok(rows)
     }
 
     fn penalised(&self, objective: f64, estimate: &[f64]) -> f64 {
@@ -110,50 +104,85 @@ impl<M: Model> Model for Augmented<M> {
         &self.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        let estimate = self.next_multipliers(&self.rows(x)?);
-        Ok(self.penalised(self.model.objective(x)?, &estimate))
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(AugmentedAt { view: self, inner: self.model.at(x)?, estimate: None }))
+    }
+}
+
+/// φ at one point.
+struct AugmentedAt<'m, M> {
+    view: &'m Augmented<M>,
+    inner: Box<dyn Evaluation + 'm>,
+    /// The next estimate of the multipliers, from the rows.
+    estimate: Option<Vec<f64>>,
+}
+
+impl<M: Model> AugmentedAt<'_, M> {
+    fn estimate(&mut self) -> Result<Vec<f64>, EvaluationError> {
+        if let Some(known) = &self.estimate {
+            return Ok(known.clone());
+        }
+        let mut rows = vec![0.0; self.view.model.meta().rows()];
+        if !rows.is_empty() {
+            self.inner.constraints(&mut rows)?;
+        }
+        let estimate = self.view.next_multipliers(&rows);
+        self.estimate = Some(estimate.clone());
+        Ok(estimate)
+    }
+}
+
+impl<M: Model> Evaluation for AugmentedAt<'_, M> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        let estimate = self.estimate()?;
+        Ok(self.view.penalised(self.inner.objective()?, &estimate))
     }
 
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let inner = self.model.meta();
-        let estimate = self.next_multipliers(&self.rows(x)?);
-        let value = self.penalised(self.model.gradient(x, gradient)?, &estimate);
-        let mut jacobian = vec![0.0; inner.jacobian.len()];
-        self.model.jacobian(x, &mut jacobian)?;
-        inner.jacobian.add_transposed(&jacobian, &estimate, gradient);
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let pattern = &self.view.model.meta().jacobian;
+        let estimate = self.estimate()?;
+        let value = self.view.penalised(self.inner.gradient(gradient)?, &estimate);
+        let mut jacobian = vec![0.0; pattern.len()];
+        self.inner.jacobian(&mut jacobian)?;
+        pattern.add_transposed(&jacobian, &estimate, gradient);
         Ok(value)
     }
 
-    fn constraints(&self, _x: &[f64], _values: &mut [f64]) -> Result<(), EvaluationError> {
+    fn constraints(&mut self, _values: &mut [f64]) -> Result<(), EvaluationError> {
         Ok(())
     }
 
-    fn jacobian(&self, _x: &[f64], _values: &mut [f64]) -> Result<(), EvaluationError> {
+    fn jacobian(&mut self, _values: &mut [f64]) -> Result<(), EvaluationError> {
         Ok(())
     }
 
-    fn hessian(&self, x: &[f64], weight: f64, _y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let inner = self.model.meta();
-        let estimate: Vec<f64> = self.next_multipliers(&self.rows(x)?).into_iter().map(|y| weight * y).collect();
-        let mut own = vec![0.0; inner.hessian.len()];
-        self.model.hessian(x, weight, &estimate, &mut own)?;
-        let mut jacobian = vec![0.0; inner.jacobian.len()];
-        self.model.jacobian(x, &mut jacobian)?;
+    fn hessian(&mut self, weight: f64, _y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let Augmented { model, places, penalty, .. } = self.view;
+        let meta = model.meta();
+        let estimate: Vec<f64> = self.estimate()?.into_iter().map(|y| weight * y).collect();
+        let mut own = vec![0.0; meta.hessian.len()];
+        self.inner.hessian(weight, &estimate, &mut own)?;
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        self.inner.jacobian(&mut jacobian)?;
         values.fill(0.0);
-        for (&place, value) in self.places.hessian.iter().zip(&own) {
+        for (&place, value) in places.hessian.iter().zip(&own) {
             values[place as usize] += value;
         }
-        let mut places = self.places.products.iter();
+        let mut places = places.products.iter();
         for (row, &y) in estimate.iter().enumerate() {
-            let entries = &jacobian[inner.jacobian.range(row)];
+            let entries = &jacobian[meta.jacobian.range(row)];
             let places = places.by_ref().take(entries.len() * (entries.len() + 1) / 2);
-            let curvature = if y == 0.0 { 0.0 } else { weight * self.penalty };
+            let curvature = if y == 0.0 { 0.0 } else { weight * penalty };
             let pairs =
                 entries.iter().enumerate().flat_map(|(at, first)| entries[..=at].iter().map(move |second| first * second));
             places.zip(pairs).for_each(|(&place, product)| values[place as usize] += curvature * product);
         }
         Ok(())
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let view = self.view;
+        product_by_entries(self, &view.meta.hessian, (weight, y), direction, product)
     }
 }
 

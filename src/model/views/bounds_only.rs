@@ -1,6 +1,6 @@
 //! A model without its rows: the note's bound-convergence test (§4.1.2).
 
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern};
 
 /// The same objective and bounds, no rows.
 pub struct BoundsOnly<'a> {
@@ -28,23 +28,39 @@ impl Model for BoundsOnly<'_> {
         &self.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.model.objective(x)
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(WithoutRows { inner: self.model.at(x)?, rows: self.rows }))
+    }
+}
+
+/// One point without its rows.
+struct WithoutRows<'m> {
+    inner: Box<dyn Evaluation + 'm>,
+    rows: usize,
+}
+
+impl Evaluation for WithoutRows<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        self.inner.objective()
     }
 
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        self.model.gradient(x, gradient)
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        self.inner.gradient(gradient)
     }
 
-    fn constraints(&self, _: &[f64], _: &mut [f64]) -> Result<(), EvaluationError> {
+    fn constraints(&mut self, _: &mut [f64]) -> Result<(), EvaluationError> {
         Ok(())
     }
 
-    fn jacobian(&self, _: &[f64], _: &mut [f64]) -> Result<(), EvaluationError> {
+    fn jacobian(&mut self, _: &mut [f64]) -> Result<(), EvaluationError> {
         Ok(())
     }
 
-    fn hessian(&self, x: &[f64], weight: f64, _: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.hessian(x, weight, &vec![0.0; self.rows], values)
+    fn hessian(&mut self, weight: f64, _: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.hessian(weight, &vec![0.0; self.rows], values)
+    }
+
+    fn hessian_product(&mut self, weight: f64, _: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.hessian_product(weight, &vec![0.0; self.rows], direction, product)
     }
 }

@@ -5,8 +5,11 @@
 //! and the rows stay small. With V = ∂v/∂z = A + Γ·q_z: c_z = c₂_v·V, and the Hessian of the Lagrangian is Vᵀ·L₂_vv·V + Σ ŷ_k·∇²q_k with
 //! ŷ = Γᵀ·L₂_v, and the multipliers of R as they are.
 
+mod at_point;
+
 use super::mapped::Rows;
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern};
+use at_point::AtPoint;
 
 /// How the second model's inputs follow from the variables and from the first model's rows.
 #[derive(Debug, Clone, Default)]
@@ -41,56 +44,18 @@ pub struct Composed<F, S> {
     first_hessian: Vec<u32>,
 }
 
-/// What both models give at a point.
-struct At {
-    v: Vec<f64>,
-    /// V along its pattern.
-    slopes: Vec<f64>,
-    /// The first Jacobian.
-    first: Vec<f64>,
-}
-
 impl<F: Model, S: Model> Composed<F, S> {
     /// The composition; `meta` says bounds, starts and limits of the whole, its patterns are found here.
     pub fn new(first: F, second: S, links: Links, own_rows: usize, mut meta: Meta) -> Self {
-        let (one, two, n) = (first.meta(), second.meta(), meta.lower.len());
-        let mut positions = Vec::new();
-        for input in 0..links.variables.len() {
-            positions.extend(links.variables.row(input).iter().map(|&(j, _)| (input as u32, j)));
-            for &(row, _) in links.rows.row(input) {
-                positions.extend(one.jacobian.row(row as usize).iter().map(|&j| (input as u32, j)));
-            }
-        }
-        let slopes = Pattern::from_positions(links.variables.len(), &mut positions);
-        for (row, input) in two.jacobian.iter() {
-            positions.extend(slopes.row(input).iter().map(|&j| (row as u32, j)));
-        }
-        let after = two.rows();
-        for row in own_rows..one.rows() {
-            positions.extend(one.jacobian.row(row).iter().map(|&j| ((after + row - own_rows) as u32, j)));
-        }
-        meta.jacobian = Pattern::from_positions(after + one.rows() - own_rows, &mut positions);
-        for_pairs(&two.hessian, &slopes, |_, _, row, column, _| positions.push((row, column)));
-        positions.extend(one.hessian.iter().map(|(row, column)| (row as u32, column as u32)));
-        meta.hessian = Pattern::from_positions(n, &mut positions);
-        // Every position looked up below was announced above.
-        let place = |pattern: &Pattern, row: usize, column: u32| pattern.position(row, column).unwrap_or_default() as u32;
-        let mut constant_slopes = vec![0.0; slopes.len()];
-        let mut through = Vec::new();
-        for input in 0..links.variables.len() {
-            for &(j, value) in links.variables.row(input) {
-                constant_slopes[place(&slopes, input, j) as usize] += value;
-            }
-            for &(row, gamma) in links.rows.row(input) {
-                for at in one.jacobian.range(row as usize) {
-                    through.push((at as u32, place(&slopes, input, one.jacobian.columns[at]), gamma));
-                }
-            }
-        }
+        let slopes = slopes_pattern(first.meta(), &links);
+        (meta.jacobian, meta.hessian) = patterns(first.meta(), second.meta(), &slopes, own_rows, meta.lower.len());
+        let (one, two) = (first.meta(), second.meta());
+        let (constant_slopes, through) = shares_of_slopes(one, &links, &slopes);
         let mut jacobian_places = Vec::new();
         for (row, input) in two.jacobian.iter() {
             jacobian_places.extend(slopes.row(input).iter().map(|&j| place(&meta.jacobian, row, j)));
         }
+        let after = two.rows();
         let first_places = (own_rows..one.rows())
             .flat_map(|row| one.jacobian.row(row).iter().map(move |&j| (after + row - own_rows, j)))
             .map(|(row, j)| place(&meta.jacobian, row, j))
@@ -129,27 +94,72 @@ impl<F: Model, S: Model> Composed<F, S> {
         (self.meta.start, self.meta.typical) = (start, typical);
     }
 
-    /// v(z), and the first model's rows.
-    fn inputs(&self, z: &[f64]) -> Result<(Vec<f64>, Vec<f64>), EvaluationError> {
-        let mut rows = vec![0.0; self.first.meta().rows()];
-        self.first.constraints(z, &mut rows)?;
+    /// v(z) from the first model's rows.
+    fn inputs(&self, z: &[f64], rows: &[f64]) -> Vec<f64> {
         let sum = |entries: &[(u32, f64)], values: &[f64]| {
             entries.iter().map(|&(at, factor)| factor * values[at as usize]).sum::<f64>()
         };
         let value = |(input, constant): (usize, &f64)| {
-            constant + sum(self.links.variables.row(input), z) + sum(self.links.rows.row(input), &rows)
+            constant + sum(self.links.variables.row(input), z) + sum(self.links.rows.row(input), rows)
         };
-        Ok((self.links.constants.iter().enumerate().map(value).collect(), rows))
+        self.links.constants.iter().enumerate().map(value).collect()
     }
 
-    fn at(&self, z: &[f64]) -> Result<At, EvaluationError> {
-        let (v, _) = self.inputs(z)?;
-        let mut first = vec![0.0; self.first.meta().jacobian.len()];
-        self.first.jacobian(z, &mut first)?;
+    /// V from the first Jacobian.
+    fn slopes(&self, first: &[f64]) -> Vec<f64> {
         let mut slopes = self.constant_slopes.clone();
         self.through.iter().for_each(|&(from, to, gamma)| slopes[to as usize] += gamma * first[from as usize]);
-        Ok(At { v, slopes, first })
+        slopes
     }
+}
+
+/// Every position looked up was announced when the pattern was made.
+fn place(pattern: &Pattern, row: usize, column: u32) -> u32 {
+    pattern.position(row, column).unwrap_or_default() as u32
+}
+
+/// Where V can be non-zero.
+fn slopes_pattern(one: &Meta, links: &Links) -> Pattern {
+    let mut positions = Vec::new();
+    for input in 0..links.variables.len() {
+        positions.extend(links.variables.row(input).iter().map(|&(j, _)| (input as u32, j)));
+        for &(row, _) in links.rows.row(input) {
+            positions.extend(one.jacobian.row(row as usize).iter().map(|&j| (input as u32, j)));
+        }
+    }
+    Pattern::from_positions(links.variables.len(), &mut positions)
+}
+
+/// Where the whole's Jacobian and Hessian can be non-zero, for n variables.
+fn patterns(one: &Meta, two: &Meta, slopes: &Pattern, own_rows: usize, n: usize) -> (Pattern, Pattern) {
+    let mut positions = Vec::new();
+    for (row, input) in two.jacobian.iter() {
+        positions.extend(slopes.row(input).iter().map(|&j| (row as u32, j)));
+    }
+    let after = two.rows();
+    for row in own_rows..one.rows() {
+        positions.extend(one.jacobian.row(row).iter().map(|&j| ((after + row - own_rows) as u32, j)));
+    }
+    let jacobian = Pattern::from_positions(after + one.rows() - own_rows, &mut positions);
+    let mut positions: Vec<(u32, u32)> = one.hessian.iter().map(|(row, column)| (row as u32, column as u32)).collect();
+    for_pairs(&two.hessian, slopes, |_, _, row, column, _| positions.push((row, column)));
+    (jacobian, Pattern::from_positions(n, &mut positions))
+}
+
+/// A's values along V, and the shares of Γ·q_z in it.
+fn shares_of_slopes(one: &Meta, links: &Links, slopes: &Pattern) -> (Vec<f64>, Vec<(u32, u32, f64)>) {
+    let (mut constant, mut through) = (vec![0.0; slopes.len()], Vec::new());
+    for input in 0..links.variables.len() {
+        for &(j, value) in links.variables.row(input) {
+            constant[place(slopes, input, j) as usize] += value;
+        }
+        for &(row, gamma) in links.rows.row(input) {
+            for at in one.jacobian.range(row as usize) {
+                through.push((at as u32, place(slopes, input, one.jacobian.columns[at]), gamma));
+            }
+        }
+    }
+    (constant, through)
 }
 
 /// Calls back for every product V_ki·V_lj of an entry (k, l) of the lower triangle of H₂: positions in V, row and column of the lower triangle of
@@ -174,90 +184,15 @@ impl<F: Model, S: Model> Model for Composed<F, S> {
         &self.meta
     }
 
-    fn objective(&self, z: &[f64]) -> Result<f64, EvaluationError> {
-        self.second.objective(&self.inputs(z)?.0)
-    }
-
-    fn gradient(&self, z: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let at = self.at(z)?;
-        let mut inner = vec![0.0; at.v.len()];
-        let value = self.second.gradient(&at.v, &mut inner)?;
-        gradient.fill(0.0);
-        self.slopes.add_transposed(&at.slopes, &inner, gradient);
-        Ok(value)
-    }
-
-    fn constraints(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let (v, rows) = self.inputs(z)?;
-        let (own, rest) = values.split_at_mut(self.second.meta().rows());
-        self.second.constraints(&v, own)?;
-        rest.copy_from_slice(&rows[self.own_rows..]);
-        Ok(())
-    }
-
-    fn jacobian(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let at = self.at(z)?;
-        let pattern = &self.second.meta().jacobian;
-        let mut second = vec![0.0; pattern.len()];
-        self.second.jacobian(&at.v, &mut second)?;
-        values.fill(0.0);
-        let mut places = self.jacobian_places.iter();
-        for (entry, (_, input)) in pattern.iter().enumerate() {
-            let range = self.slopes.range(input);
-            for (slope, &place) in at.slopes[range.clone()].iter().zip(places.by_ref().take(range.len())) {
-                values[place as usize] += second[entry] * slope;
-            }
-        }
-        let begin = self.first.meta().jacobian.offsets[self.own_rows];
-        self.first_places.iter().zip(&at.first[begin..]).for_each(|(&place, value)| values[place as usize] += value);
-        Ok(())
-    }
-
-    fn hessian(&self, z: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let at = self.at(z)?;
-        let two = self.second.meta();
-        let (own, rest) = y.split_at(two.rows());
-        let mut second = vec![0.0; two.hessian.len()];
-        self.second.hessian(&at.v, weight, own, &mut second)?;
-        values.fill(0.0);
-        let mut places = self.hessian_places.iter();
-        for_pairs(&two.hessian, &self.slopes, |a, b, _, _, (entry, times)| {
-            if let Some(&place) = places.next() {
-                values[place as usize] += times * second[entry] * at.slopes[a] * at.slopes[b];
-            }
-        });
-        let multipliers = self.first_multipliers(&at, weight, own, rest)?;
-        let mut first = vec![0.0; self.first.meta().hessian.len()];
-        self.first.hessian(z, 0.0, &multipliers, &mut first)?;
-        self.first_hessian.iter().zip(&first).for_each(|(&place, value)| values[place as usize] += value);
-        Ok(())
-    }
-}
-
-impl<F: Model, S: Model> Composed<F, S> {
-    /// ŷ = Γᵀ·(w·∇f₂ + c₂_vᵀ·y) for the rows that feed the second model, the rest as it is.
-    fn first_multipliers(&self, at: &At, weight: f64, own: &[f64], rest: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let pattern = &self.second.meta().jacobian;
-        let mut slope = vec![0.0; at.v.len()];
-        if weight != 0.0 {
-            self.second.gradient(&at.v, &mut slope)?;
-            slope.iter_mut().for_each(|slope| *slope *= weight);
-        }
-        let mut second = vec![0.0; pattern.len()];
-        self.second.jacobian(&at.v, &mut second)?;
-        pattern.add_transposed(&second, own, &mut slope);
-        let mut multipliers = vec![0.0; self.first.meta().rows()];
-        for (input, &slope) in slope.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
-            self.links.rows.row(input).iter().for_each(|&(row, gamma)| multipliers[row as usize] += gamma * slope);
-        }
-        multipliers[self.own_rows..].iter_mut().zip(rest).for_each(|(multiplier, y)| *multiplier += y);
-        Ok(multipliers)
+    fn at<'m>(&'m self, z: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(AtPoint::new(self, z)?))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use num_dual::DualNum;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
     use super::*;
     use crate::model::derivative_check::derivative_check;
@@ -290,5 +225,62 @@ mod tests {
         let model = Composed::new(first, second, links, 2, meta);
         let check = derivative_check(&model, &[0.2, 0.4, 0.7]).unwrap();
         assert_eq!(check.disagreements, 0, "{:?}", check.worst);
+    }
+
+    /// Counts how often rows and Jacobian are computed.
+    struct Counted {
+        model: Sample,
+        rows: AtomicUsize,
+        jacobians: AtomicUsize,
+    }
+
+    impl Model for Counted {
+        fn meta(&self) -> &Meta {
+            self.model.meta()
+        }
+
+        fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
+            self.model.objective(x)
+        }
+
+        fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+            self.model.gradient(x, gradient)
+        }
+
+        fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+            self.rows.fetch_add(1, Relaxed);
+            self.model.constraints(x, values)
+        }
+
+        fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+            self.jacobians.fetch_add(1, Relaxed);
+            self.model.jacobian(x, values)
+        }
+
+        fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+            self.model.hessian(x, weight, y, values)
+        }
+    }
+
+    #[test]
+    fn at_one_point_the_first_model_is_computed_once() {
+        let model = Sample::new(&[0.5, 0.3], |z| z[0]).row(-1.0, 1.0, |z| z[0] * z[1]);
+        let first = Counted { model, rows: 0.into(), jacobians: 0.into() };
+        let second = Sample::new(&[0.1], |v| v[0].powi(2)).row(-1.0, 1.0, |v| v[0].powi(3));
+        let mut links = Links { constants: vec![0.0], ..Links::default() };
+        links.variables.push([]);
+        links.rows.push([(0, 2.0)]);
+        let (lower, upper, start) = (vec![-9.0; 2], vec![9.0; 2], vec![0.5, 0.3]);
+        let meta = Meta { lower, upper, start, row_lower: vec![-1.0], row_upper: vec![1.0], ..Meta::default() };
+        let model = Composed::new(first, second, links, 1, meta);
+        let (mut gradient, mut rows) = ([0.0; 2], [0.0; 1]);
+        let (mut jacobian, mut hessian) = (vec![0.0; model.meta().jacobian.len()], vec![0.0; model.meta().hessian.len()]);
+        let mut at = model.at(&[0.5, 0.3]).unwrap();
+        at.gradient(&mut gradient).unwrap();
+        at.constraints(&mut rows).unwrap();
+        at.jacobian(&mut jacobian).unwrap();
+        at.hessian(1.0, &[0.7], &mut hessian).unwrap();
+        let counts = (model.first().rows.load(Relaxed), model.first().jacobians.load(Relaxed));
+        assert_eq!(counts, (1, 1));
     }
 }

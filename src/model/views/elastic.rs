@@ -1,6 +1,7 @@
 //! The elastic problem: how little must the rows give way for a point to exist?
 
-use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern};
+use crate::model::evaluation::product_by_entries;
+use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern};
 
 /// What slacks have to spare at the start, so that interior methods have room and slacks have a size of their own.
 const ROOM: f64 = 0.1;
@@ -167,36 +168,50 @@ impl Model for Elastic<'_> {
         &self.meta
     }
 
-    fn objective(&self, point: &[f64]) -> Result<f64, EvaluationError> {
-        Ok(self.violation(point))
+    fn at<'m>(&'m self, point: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(ElasticAt { view: self, point: point.to_vec(), inner: self.model.at(self.original(point))? }))
+    }
+}
+
+/// One point with its slacks.
+struct ElasticAt<'m> {
+    view: &'m Elastic<'m>,
+    point: Vec<f64>,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl Evaluation for ElasticAt<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        Ok(self.view.violation(&self.point))
     }
 
-    fn gradient(&self, point: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let (original, slacks) = gradient.split_at_mut(self.variables());
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let (original, slacks) = gradient.split_at_mut(self.view.variables());
         original.fill(0.0);
         slacks.fill(1.0);
-        Ok(self.violation(point))
+        self.objective()
     }
 
-    fn constraints(&self, point: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut all = vec![0.0; self.scales.len()];
-        self.model.constraints(self.original(point), &mut all)?;
-        for (value, &i) in values.iter_mut().zip(&self.rows) {
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let view = self.view;
+        let mut all = vec![0.0; view.scales.len()];
+        self.inner.constraints(&mut all)?;
+        for (value, &i) in values.iter_mut().zip(&view.rows) {
             *value = all[i];
         }
-        for (&(k, scale), slack) in self.slacks.iter().zip(&point[self.variables()..]) {
+        for (&(k, scale), slack) in view.slacks.iter().zip(&self.point[view.variables()..]) {
             values[k] += scale * slack;
         }
         Ok(())
     }
 
-    fn jacobian(&self, point: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let base = &self.model.meta().jacobian;
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let base = &self.view.model.meta().jacobian;
         let mut all = vec![0.0; base.len()];
-        self.model.jacobian(self.original(point), &mut all)?;
-        let mut next = self.slacks.iter().peekable();
+        self.inner.jacobian(&mut all)?;
+        let mut next = self.view.slacks.iter().peekable();
         let mut at = 0;
-        for (k, &i) in self.rows.iter().enumerate() {
+        for (k, &i) in self.view.rows.iter().enumerate() {
             let own = &all[base.range(i)];
             values[at..at + own.len()].copy_from_slice(own);
             at += own.len();
@@ -208,8 +223,14 @@ impl Model for Elastic<'_> {
         Ok(())
     }
 
-    fn hessian(&self, point: &[f64], _weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.hessian(self.original(point), 0.0, &self.scatter(y), values)
+    fn hessian(&mut self, _weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let all = self.view.scatter(y);
+        self.inner.hessian(0.0, &all, values)
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let view = self.view;
+        product_by_entries(self, &view.meta.hessian, (weight, y), direction, product)
     }
 }
 

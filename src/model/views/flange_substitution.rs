@@ -6,7 +6,9 @@ mod patterns;
 
 use std::sync::Arc;
 
-use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
+use crate::math::within;
+use crate::model::evaluation::product_by_entries;
+use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 use crate::problem::{Dimension, Problem};
 use crate::sections;
 use patterns::{bound_difference, connect_hessian, connect_jacobian};
@@ -140,7 +142,7 @@ impl Substitution for FlangeSubstitution {
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
                 let user = self.model.meta();
-                x[j] = (z[j] + z[*partner as usize]).max(user.lower[j]).min(user.upper[j]);
+                x[j] = within(z[j] + z[*partner as usize], user.lower[j], user.upper[j]);
             }
         }
         x
@@ -150,7 +152,7 @@ impl Substitution for FlangeSubstitution {
         let mut z = x.to_vec();
         for (j, partner) in self.partner.iter().enumerate() {
             if let Some(partner) = partner {
-                z[j] = (x[j] - x[*partner as usize]).max(self.meta.lower[j]).min(self.meta.upper[j]);
+                z[j] = within(x[j] - x[*partner as usize], self.meta.lower[j], self.meta.upper[j]);
             }
         }
         z
@@ -168,49 +170,67 @@ impl Model for FlangeSubstitution {
         &self.meta
     }
 
-    fn objective(&self, z: &[f64]) -> Result<f64, EvaluationError> {
-        self.model.objective(&self.raw(z))
+    fn at<'m>(&'m self, z: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        let x = self.raw(z);
+        Ok(Box::new(SubstitutedAt { view: self, inner: self.model.at(&x)?, x }))
+    }
+}
+
+/// One point in the substituted variables.
+struct SubstitutedAt<'m> {
+    view: &'m FlangeSubstitution,
+    x: Vec<f64>,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl Evaluation for SubstitutedAt<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        self.inner.objective()
     }
 
-    fn gradient(&self, z: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let value = self.model.gradient(&self.raw(z), gradient)?;
-        self.add_to_partners(gradient);
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let value = self.inner.gradient(gradient)?;
+        self.view.add_to_partners(gradient);
         Ok(value)
     }
 
-    fn constraints(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let x = self.raw(z);
-        let (rows, heights) = values.split_at_mut(self.model.meta().rows());
-        for (height, &h) in heights.iter_mut().zip(&self.replaced) {
-            *height = x[h];
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let (rows, heights) = values.split_at_mut(self.view.model.meta().rows());
+        for (height, &h) in heights.iter_mut().zip(&self.view.replaced) {
+            *height = self.x[h];
         }
-        self.model.constraints(&x, rows)
+        self.inner.constraints(rows)
     }
 
-    fn jacobian(&self, z: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut user = vec![0.0; self.jacobian_slots.len()];
-        self.model.jacobian(&self.raw(z), &mut user)?;
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut user = vec![0.0; self.view.jacobian_slots.len()];
+        self.inner.jacobian(&mut user)?;
         values.fill(0.0);
-        for (slots, value) in self.jacobian_slots.iter().zip(user) {
+        for (slots, value) in self.view.jacobian_slots.iter().zip(user) {
             for &slot in slots.iter().filter(|&&slot| slot != NOWHERE) {
                 values[slot as usize] += value;
             }
         }
-        let first = self.meta.jacobian.offsets[self.model.meta().rows()];
+        let first = self.view.meta.jacobian.offsets[self.view.model.meta().rows()];
         values[first..].fill(1.0);
         Ok(())
     }
 
-    fn hessian(&self, z: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut user = vec![0.0; self.hessian_slots.len()];
-        self.model.hessian(&self.raw(z), weight, &y[..self.model.meta().rows()], &mut user)?;
+    fn hessian(&mut self, weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut user = vec![0.0; self.view.hessian_slots.len()];
+        self.inner.hessian(weight, &y[..self.view.model.meta().rows()], &mut user)?;
         values.fill(0.0);
-        for (slots, value) in self.hessian_slots.iter().zip(user) {
+        for (slots, value) in self.view.hessian_slots.iter().zip(user) {
             for &(slot, factor) in slots {
                 values[slot as usize] += factor * value;
             }
         }
         Ok(())
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let view = self.view;
+        product_by_entries(self, &view.meta.hessian, (weight, y), direction, product)
     }
 }
 

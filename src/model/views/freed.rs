@@ -1,6 +1,6 @@
 //! A model with one limit let go, minimising how far that limit has to move.
 
-use crate::model::{EvaluationError, Meta, Model};
+use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
 /// One side of a row or of a variable's bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,39 +90,74 @@ impl Model for Freed<'_> {
         &self.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        Ok(self.sign * self.needed(x)?)
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(FreedAt { view: self, x: x.to_vec(), inner: self.model.at(x)? }))
+    }
+}
+
+/// One point with the limit let go.
+struct FreedAt<'m> {
+    view: &'m Freed<'m>,
+    x: Vec<f64>,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl FreedAt<'_> {
+    /// The multipliers of the model's rows that make its Lagrangian this one's.
+    fn multipliers(&self, weight: f64, y: &[f64]) -> Vec<f64> {
+        let mut all = y.to_vec();
+        if let Limit::Row(i, _) = self.view.limit {
+            all[i] += weight * self.view.sign;
+        }
+        all
+    }
+}
+
+impl Evaluation for FreedAt<'_> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        let needed = match self.view.limit {
+            Limit::Bound(j, _) => self.x[j],
+            Limit::Row(i, _) => {
+                let mut rows = vec![0.0; self.view.meta.rows()];
+                self.inner.constraints(&mut rows)?;
+                rows[i]
+            }
+        };
+        Ok(self.view.sign * needed)
     }
 
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let Freed { meta, limit, sign, .. } = self.view;
         gradient.fill(0.0);
-        match self.limit {
-            Limit::Bound(j, _) => gradient[j] = self.sign,
+        match *limit {
+            Limit::Bound(j, _) => gradient[j] = *sign,
             Limit::Row(i, _) => {
-                let mut values = vec![0.0; self.meta.jacobian.len()];
-                self.model.jacobian(x, &mut values)?;
-                for at in self.meta.jacobian.range(i) {
-                    gradient[self.meta.jacobian.columns[at] as usize] += self.sign * values[at];
+                let mut values = vec![0.0; meta.jacobian.len()];
+                self.inner.jacobian(&mut values)?;
+                for at in meta.jacobian.range(i) {
+                    gradient[meta.jacobian.columns[at] as usize] += sign * values[at];
                 }
             }
         }
-        self.objective(x)
+        self.objective()
     }
 
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.constraints(x, values)
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.constraints(values)
     }
 
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.jacobian(x, values)
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        self.inner.jacobian(values)
     }
 
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut all = y.to_vec();
-        if let Limit::Row(i, _) = self.limit {
-            all[i] += weight * self.sign;
-        }
-        self.model.hessian(x, 0.0, &all, values)
+    fn hessian(&mut self, weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let all = self.multipliers(weight, y);
+        self.inner.hessian(0.0, &all, values)
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let all = self.multipliers(weight, y);
+        self.inner.hessian_product(0.0, &all, direction, product)
     }
 }
 

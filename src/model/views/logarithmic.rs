@@ -1,8 +1,12 @@
 //! A model in the logarithms of its variables, y = ln x: posynomials become convex, monomial rows affine.
 
-use std::sync::{Arc, Mutex, PoisonError};
+mod at_point;
 
-use crate::model::{EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
+use std::sync::Arc;
+
+use crate::math::within;
+use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
+use at_point::LogarithmicAt;
 
 /// f(eʸ) and c(eʸ); rows that are monomials k·Πxᵃ become ln k + Σa·y.
 pub struct Logarithmic {
@@ -17,17 +21,6 @@ pub struct Logarithmic {
     /// Where the model's Hessian positions stand in this one's pattern, and where the diagonal does.
     slots: Vec<u32>,
     diagonal: Vec<u32>,
-    /// First derivatives where they were asked for last: second ones are nearly always wanted at the same point.
-    latest: Mutex<Latest>,
-}
-
-/// First derivatives in x, and the points y where they were taken.
-#[derive(Default)]
-struct Latest {
-    gradient_at: Vec<f64>,
-    gradient: Vec<f64>,
-    jacobian_at: Vec<f64>,
-    jacobian: Vec<f64>,
 }
 
 impl Logarithmic {
@@ -62,38 +55,11 @@ impl Logarithmic {
             extra_work: user.extra_work,
             names: NameTable::new(LogNames(user.names.clone())),
         };
-        let latest = Mutex::default();
-        Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal, latest })
+        Some(Logarithmic { model, meta, monomial, exponents, constants, slots, diagonal })
     }
 
     fn x(&self, y: &[f64]) -> Vec<f64> {
         y.iter().map(|y| y.exp()).collect()
-    }
-
-    fn latest(&self) -> std::sync::MutexGuard<'_, Latest> {
-        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// weight·∇f + Jᵀ·multipliers in x.
-    fn lagrangian_gradient(&self, y: &[f64], x: &[f64], weight: f64, multipliers: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-        let latest = self.latest();
-        let mut gradient = vec![0.0; x.len()];
-        if weight != 0.0 {
-            if latest.gradient_at == y {
-                gradient.copy_from_slice(&latest.gradient);
-            } else {
-                self.model.gradient(x, &mut gradient)?;
-            }
-            gradient.iter_mut().for_each(|g| *g *= weight);
-        }
-        if latest.jacobian_at == y {
-            self.meta.jacobian.add_transposed(&latest.jacobian, multipliers, &mut gradient);
-        } else {
-            let mut jacobian = vec![0.0; self.meta.jacobian.len()];
-            self.model.jacobian(x, &mut jacobian)?;
-            self.meta.jacobian.add_transposed(&jacobian, multipliers, &mut gradient);
-        }
-        Ok(gradient)
     }
 }
 
@@ -176,7 +142,7 @@ impl Substitution for Logarithmic {
             // A bound reached in logarithms is that very bound.
             y if y <= self.meta.lower[j] => user.lower[j],
             y if y >= self.meta.upper[j] => user.upper[j],
-            _ => x.max(user.lower[j]).min(user.upper[j]),
+            _ => within(x, user.lower[j], user.upper[j]),
         };
         self.x(y).into_iter().enumerate().map(inside).collect()
     }
@@ -192,65 +158,10 @@ impl Model for Logarithmic {
         &self.meta
     }
 
-    fn objective(&self, y: &[f64]) -> Result<f64, EvaluationError> {
-        self.model.objective(&self.x(y))
-    }
-
-    fn gradient(&self, y: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+    fn at<'m>(&'m self, y: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
         let x = self.x(y);
-        let value = self.model.gradient(&x, gradient)?;
-        let mut latest = self.latest();
-        latest.gradient_at.clear();
-        latest.gradient_at.extend_from_slice(y);
-        latest.gradient.clear();
-        latest.gradient.extend_from_slice(gradient);
-        gradient.iter_mut().zip(&x).for_each(|(g, x)| *g *= x);
-        Ok(value)
-    }
-
-    fn constraints(&self, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        self.model.constraints(&self.x(y), values)?;
-        let pattern = &self.meta.jacobian;
-        for (row, value) in values.iter_mut().enumerate().filter(|(row, _)| self.monomial[*row]) {
-            let sum: f64 = pattern.range(row).map(|at| self.exponents[at] * y[pattern.columns[at] as usize]).sum();
-            *value = self.constants[row] + sum;
-        }
-        Ok(())
-    }
-
-    fn jacobian(&self, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let x = self.x(y);
-        self.model.jacobian(&x, values)?;
-        let mut latest = self.latest();
-        latest.jacobian_at.clear();
-        latest.jacobian_at.extend_from_slice(y);
-        latest.jacobian.clear();
-        latest.jacobian.extend_from_slice(values);
-        let pattern = &self.meta.jacobian;
-        for (row, &monomial) in self.monomial.iter().enumerate() {
-            for at in pattern.range(row) {
-                values[at] = if monomial { self.exponents[at] } else { values[at] * x[pattern.columns[at] as usize] };
-            }
-        }
-        Ok(())
-    }
-
-    fn hessian(&self, y: &[f64], weight: f64, multipliers: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let x = self.x(y);
-        let pattern = &self.model.meta().hessian;
-        let multipliers: Vec<f64> =
-            multipliers.iter().zip(&self.monomial).map(|(&y, &monomial)| if monomial { 0.0 } else { y }).collect();
-        let mut inner = vec![0.0; pattern.len()];
-        self.model.hessian(&x, weight, &multipliers, &mut inner)?;
-        values.fill(0.0);
-        for (((i, j), &slot), value) in pattern.iter().zip(&self.slots).zip(inner) {
-            values[slot as usize] = value * x[i] * x[j];
-        }
-        let gradient = self.lagrangian_gradient(y, &x, weight, &multipliers)?;
-        for (j, &slot) in self.diagonal.iter().enumerate() {
-            values[slot as usize] += x[j] * gradient[j];
-        }
-        Ok(())
+        let inner = self.model.at(&x)?;
+        Ok(Box::new(LogarithmicAt { view: self, y: y.to_vec(), x, inner, gradient: None, jacobian: None }))
     }
 }
 

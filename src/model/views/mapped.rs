@@ -3,7 +3,8 @@
 //! What is linear by nature (a member's deformations in its nodes' displacements, the sum of member forces at a node) stays out of the
 //! elements: they keep few inputs, and their Hessians stay small.
 
-use crate::model::{EvaluationError, Meta, Model, Pattern};
+use crate::model::evaluation::product_by_entries;
+use crate::model::{Evaluation, EvaluationError, Meta, Model, Pattern};
 
 /// A sparse matrix by rows.
 #[derive(Debug, Clone)]
@@ -176,49 +177,67 @@ impl<M: Model> Model for Mapped<M> {
         &self.meta
     }
 
-    fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
-        self.inner.objective(&self.inward(x))
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        Ok(Box::new(MappedAt { view: self, x: x.to_vec(), inner: self.inner.at(&self.inward(x))? }))
+    }
+}
+
+/// One point behind the maps.
+struct MappedAt<'m, M> {
+    view: &'m Mapped<M>,
+    x: Vec<f64>,
+    inner: Box<dyn Evaluation + 'm>,
+}
+
+impl<M: Model> Evaluation for MappedAt<'_, M> {
+    fn objective(&mut self) -> Result<f64, EvaluationError> {
+        self.inner.objective()
     }
 
-    fn gradient(&self, x: &[f64], gradient: &mut [f64]) -> Result<f64, EvaluationError> {
-        let mut inner = vec![0.0; self.inner.meta().variables()];
-        let value = self.inner.gradient(&self.inward(x), &mut inner)?;
+    fn gradient(&mut self, gradient: &mut [f64]) -> Result<f64, EvaluationError> {
+        let mut inner = vec![0.0; self.view.inner.meta().variables()];
+        let value = self.inner.gradient(&mut inner)?;
         gradient.fill(0.0);
         for (at, slope) in inner.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
-            self.maps.inputs.row(at).iter().for_each(|&(j, b)| gradient[j as usize] += b * slope);
+            self.view.maps.inputs.row(at).iter().for_each(|&(j, b)| gradient[j as usize] += b * slope);
         }
         Ok(value)
     }
 
-    fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut inner = vec![0.0; self.inner.meta().rows()];
-        self.inner.constraints(&self.inward(x), &mut inner)?;
+    fn constraints(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut inner = vec![0.0; self.view.inner.meta().rows()];
+        self.inner.constraints(&mut inner)?;
         for (outer, value) in values.iter_mut().enumerate() {
-            let own: f64 = self.maps.outputs.row(outer).iter().map(|&(row, c)| c * inner[row as usize]).sum();
-            let linear: f64 = self.maps.linear.row(outer).iter().map(|&(j, d)| d * x[j as usize]).sum();
+            let own: f64 = self.view.maps.outputs.row(outer).iter().map(|&(row, c)| c * inner[row as usize]).sum();
+            let linear: f64 = self.view.maps.linear.row(outer).iter().map(|&(j, d)| d * self.x[j as usize]).sum();
             *value = own + linear;
         }
         Ok(())
     }
 
-    fn jacobian(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let mut inner = vec![0.0; self.inner.meta().jacobian.len()];
-        self.inner.jacobian(&self.inward(x), &mut inner)?;
+    fn jacobian(&mut self, values: &mut [f64]) -> Result<(), EvaluationError> {
+        let mut inner = vec![0.0; self.view.inner.meta().jacobian.len()];
+        self.inner.jacobian(&mut inner)?;
         values.fill(0.0);
-        self.jacobian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
-        self.linear.iter().for_each(|&(to, value)| values[to as usize] += value);
+        self.view.jacobian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
+        self.view.linear.iter().for_each(|&(to, value)| values[to as usize] += value);
         Ok(())
     }
 
-    fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let inner_y: Vec<f64> = (0..self.outputs_of.len())
-            .map(|row| self.outputs_of.row(row).iter().map(|&(outer, c)| c * y[outer as usize]).sum())
-            .collect();
-        let mut inner = vec![0.0; self.inner.meta().hessian.len()];
-        self.inner.hessian(&self.inward(x), weight, &inner_y, &mut inner)?;
+    fn hessian(&mut self, weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
+        let outputs_of = &self.view.outputs_of;
+        let inner_y: Vec<f64> =
+            (0..outputs_of.len()).map(|row| outputs_of.row(row).iter().map(|&(outer, c)| c * y[outer as usize]).sum()).collect();
+        let mut inner = vec![0.0; self.view.inner.meta().hessian.len()];
+        self.inner.hessian(weight, &inner_y, &mut inner)?;
         values.fill(0.0);
-        self.hessian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
+        self.view.hessian.iter().for_each(|share| values[share.to as usize] += share.factor * inner[share.from as usize]);
         Ok(())
+    }
+
+    fn hessian_product(&mut self, weight: f64, y: &[f64], direction: &[f64], product: &mut [f64]) -> Result<(), EvaluationError> {
+        let view = self.view;
+        product_by_entries(self, &view.meta.hessian, (weight, y), direction, product)
     }
 }
 

@@ -14,9 +14,11 @@
 //! | [`elastic`] | rows that may be violated at a price |
 //! | [`augmented`] | rows multiplied out into the objective: the augmented Lagrangian |
 //! | [`substitution`] | what views in other variables have in common: the way there and back |
+//! | [`chained`] | one substitution after another |
 
 pub mod augmented;
 pub mod bounds_only;
+pub mod chained;
 pub mod composed;
 pub mod elastic;
 pub mod flange_substitution;

@@ -3,6 +3,7 @@
 //! Every scale is a power of two, so that scaling and unscaling are exact: a bound stays that very bound, and a point
 //! goes there and back bit for bit.
 
+use crate::math::within;
 use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
 /// The factors of a [`Scaled`] model, all positive and finite.
@@ -68,7 +69,7 @@ pub fn valid_start(
 fn inwards(x: &[f64], share: f64, meta: &Meta) -> Vec<f64> {
     let inside = |(j, &value): (usize, &f64)| {
         let margin = share * (meta.upper[j] - meta.lower[j]).min(value.abs().max(1.0));
-        value.max(meta.lower[j] + margin).min(meta.upper[j] - margin).max(meta.lower[j]).min(meta.upper[j])
+        within(within(value, meta.lower[j] + margin, meta.upper[j] - margin), meta.lower[j], meta.upper[j])
     };
     x.iter().enumerate().map(inside).collect()
 }

@@ -29,3 +29,29 @@ pub trait Substitution: Sync {
         Vec::new()
     }
 }
+
+impl<S: Substitution + Send + ?Sized> Substitution for std::sync::Arc<S> {
+    fn model(&self) -> &dyn Model {
+        (**self).model()
+    }
+
+    fn inward(&self, x: &[f64]) -> Vec<f64> {
+        (**self).inward(x)
+    }
+
+    fn outward(&self, z: &[f64]) -> Vec<f64> {
+        (**self).outward(z)
+    }
+
+    fn outward_objective(&self, value: f64) -> f64 {
+        (**self).outward_objective(value)
+    }
+
+    fn outward_multipliers(&self, y: &[f64]) -> Option<Vec<f64>> {
+        (**self).outward_multipliers(y)
+    }
+
+    fn vanishing(&self, x: &[f64]) -> Vec<(usize, usize)> {
+        (**self).vanishing(x)
+    }
+}

@@ -157,15 +157,10 @@ fn definitions_with_kinks(problem: &Problem) -> Vec<bool> {
 
 /// Whether a kink stands anywhere in a formula, given which definitions have one.
 fn has_kinks(formula: &Formula, definitions: &[bool]) -> bool {
-    let go = |inner: &Formula| has_kinks(inner, definitions);
     match formula {
         _ if is_kink(formula) => true,
         Formula::Definition(d) => definitions.get(*d as usize).copied().unwrap_or(false),
-        Formula::Unary(_, inner) | Formula::Profile(_, inner) => go(inner),
-        Formula::Binary(_, left, right) => go(left) || go(right),
-        Formula::Fold(_, list) => list.iter().any(go),
-        Formula::Over { body, .. } => go(body),
-        _ => false,
+        other => other.children().any(|inner| has_kinks(inner, definitions)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! A bounds-only model seen from the face of its box on which some variables rest: what the trust region minimises.
 
+use crate::math::within;
 use crate::model::{EvaluationError, Model, Pattern};
 
 /// The model over its free variables. Points outside the box count as their projection, so that bounds hold in every
@@ -27,7 +28,7 @@ impl<'a> Face<'a> {
         let meta = self.model.meta();
         let mut x = self.base.clone();
         for (&j, &value) in self.free.iter().zip(w) {
-            x[j] = value.max(meta.lower[j]).min(meta.upper[j]);
+            x[j] = within(value, meta.lower[j], meta.upper[j]);
         }
         x
     }

@@ -8,6 +8,7 @@ use super::barrier::distances;
 use super::frame::Frame;
 use super::parameters::PARAMETERS;
 use crate::linear_algebra::cholesky;
+use crate::math::within;
 
 /// Where a component of w rests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -172,7 +173,7 @@ impl Crossover {
     fn is_inside(&mut self, frame: &Frame<'_>) -> bool {
         for i in (0..frame.m).filter(|&i| self.sides[frame.n + i] == Side::Free) {
             let (row, lower, upper) = (frame.rows[i], frame.lower[frame.n + i], frame.upper[frame.n + i]);
-            let inside = row.max(lower).min(upper);
+            let inside = within(row, lower, upper);
             self.w[frame.n + i] = if (row - inside).abs() <= PARAMETERS.accepted * row.abs().max(1.0) { inside } else { row };
         }
         self.w.iter().zip(&frame.lower).zip(&frame.upper).all(|((w, lower), upper)| lower <= w && w <= upper)

@@ -24,6 +24,7 @@ fn solve_within(model: &dyn Model, budget: Budget<'_>) -> Solution {
         observer: &mut |_| iterations += 1,
     };
     let solution = Argmin.solve(model, &mut job);
+    // A model without a value at its start has no iteration to show.
     assert!(iterations > 0 || solution.invalid.is_some());
     solution
 }

@@ -86,6 +86,16 @@ impl Model for Chain {
     }
 }
 
+/// From 1000 variables on steps are taken without a line search first: another way to the same answer.
+#[test]
+fn one_variable_more_that_makes_a_problem_large_changes_nothing() {
+    let [small, large] = [999, 1000].map(|size| solve(&Chain::new(size)));
+    assert_eq!((small.termination, large.termination), (Termination::Converged, Termination::Converged));
+    // What happens at the chain's end is felt a few links on, and no further.
+    let apart = small.x.iter().zip(&large.x).take(900).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-7, "{apart}");
+}
+
 #[test]
 fn ten_thousand_variables() {
     let size = std::env::var("RIBOPT_CHAIN").ok().and_then(|size| size.parse().ok()).unwrap_or(10_000);

@@ -12,19 +12,17 @@ use crate::problem::{Dimension, Formula};
 impl Assembly<'_> {
     /// Components along the axes of the plane, 0 along the others.
     pub(super) fn along(&mut self, vector: &Vector, what: &str) -> Option<[f64; 3]> {
-        let axes = self.building.structure.plane.axes();
-        let parts = vector.parts.iter().map(|part| self.finite(part)).collect::<Vec<Option<f64>>>();
-        self.fits(vector, axes.len(), what)?;
-        let mut along = [0.0; 3];
-        for (&axis, part) in axes.iter().zip(parts) {
-            along[axis] = part?;
-        }
-        Some(along)
+        self.parts_along(vector, what, self.building.structure.plane.axes())
     }
 
     /// Components along a member's own axes: x and z in a plane.
     pub(super) fn along_member(&mut self, vector: &Vector, what: &str) -> Option<[f64; 3]> {
         let axes = if self.building.structure.plane == Plane::Space { &[0, 1, 2][..] } else { &[0, 2][..] };
+        self.parts_along(vector, what, axes)
+    }
+
+    /// The vector's parts along these axes, 0 along the others.
+    fn parts_along(&mut self, vector: &Vector, what: &str, axes: &[usize]) -> Option<[f64; 3]> {
         let parts = vector.parts.iter().map(|part| self.finite(part)).collect::<Vec<Option<f64>>>();
         self.fits(vector, axes.len(), what)?;
         let mut along = [0.0; 3];

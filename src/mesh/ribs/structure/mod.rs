@@ -128,9 +128,7 @@ pub(super) fn files(
     table("nodes.csv", &words("name,x,y,z"), &mut nodes.map(row))?;
     let fix = if structure.fixed { "fixed" } else { "pinned" };
     table("supports.csv", &words("node,fix"), &mut supports.iter().map(|name| vec![name.clone(), fix.into()]))?;
-    let columns = bounds.iter().flat_map(|b| ["lower", "upper", "start"].map(|part| format!("{}.{part}", b.dimension)));
-    let header: Vec<String> = ["name".into(), "kind".into()].into_iter().chain(columns).collect();
-    let cells: Vec<String> = bounds.iter().flat_map(|b| [b.lower, b.upper, b.start].map(|value| value.to_string())).collect();
+    let (header, cells) = section_columns(bounds);
     let row = |name: &&String| [(*name).clone(), options.kind.name().into()].into_iter().chain(cells.clone()).collect();
     table("sections.csv", &header, &mut names.iter().map(row))?;
     let row = |(rib, [from, to]): (&crate::mesh::network::Rib, &[String; 2])| {
@@ -143,15 +141,27 @@ pub(super) fn files(
     let header = words("name,from,to,start,end,volume,up_x,up_y,up_z,line");
     table("ribs.csv", &header, &mut network.ribs.iter().zip(&sections).map(row))?;
     if has_surface {
-        let of = |case: &'static str, pressure: f64, areas: &[f64]| {
-            let loaded = network.joints.iter().zip(areas).filter(|(_, area)| **area * pressure != 0.0);
-            let row = |name: &str, force: f64| vec![case.into(), name.into(), "0".into(), "0".into(), force.to_string()];
-            loaded.map(|(joint, area)| row(&joint.name, -pressure * area)).collect::<Vec<_>>()
-        };
-        let rows = [of("dead", structure.dead, &carried.area), of("snow", structure.snow, &carried.plan)].concat();
-        table("loads.csv", &words("case,node,fx,fy,fz"), &mut rows.into_iter())?;
+        table("loads.csv", &words("case,node,fx,fy,fz"), &mut loads(network, structure, &carried).into_iter())?;
     }
     Ok((files, report, names.len()))
+}
+
+/// Header of the sections' table, and the cells of dimensions, which are the same in every row.
+fn section_columns(bounds: &[Bounds]) -> (Vec<String>, Vec<String>) {
+    let columns = bounds.iter().flat_map(|b| ["lower", "upper", "start"].map(|part| format!("{}.{part}", b.dimension)));
+    let header = ["name".into(), "kind".into()].into_iter().chain(columns).collect();
+    let cells = bounds.iter().flat_map(|b| [b.lower, b.upper, b.start].map(|value| value.to_string())).collect();
+    (header, cells)
+}
+
+/// Forces on nodes by what they carry: dead load by area, snow by area in plan.
+fn loads(network: &Network, structure: &Structure, carried: &Tributary) -> Vec<Vec<String>> {
+    let of = |case: &'static str, pressure: f64, areas: &[f64]| {
+        let loaded = network.joints.iter().zip(areas).filter(|(_, area)| **area * pressure != 0.0);
+        let row = |name: &str, force: f64| vec![case.into(), name.into(), "0".into(), "0".into(), force.to_string()];
+        loaded.map(|(joint, area)| row(&joint.name, -pressure * area)).collect::<Vec<_>>()
+    };
+    [of("dead", structure.dead, &carried.area), of("snow", structure.snow, &carried.plan)].concat()
 }
 
 fn checked(structure: &Structure) -> Result<(), RibsError> {

@@ -77,10 +77,7 @@ impl Restating {
                 (*j as usize).checked_sub(self.first).and_then(|at| self.auxiliaries.get(at)).map_or(0, |(own, _)| own.level + 1)
             }
             Formula::Definition(d) => self.definition_level.get(*d as usize).copied().unwrap_or(0),
-            Formula::Unary(_, inner) => self.level(inner),
-            Formula::Binary(_, left, right) => self.level(left).max(self.level(right)),
-            Formula::Fold(_, list) => list.iter().map(|one| self.level(one)).max().unwrap_or(0),
-            _ => 0,
+            other => other.children().map(|one| self.level(one)).max().unwrap_or(0),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::super::iterate::Iterate;
 use super::super::parameters::PARAMETERS;
 use super::super::slack_form::SlackForm;
+use crate::math::within;
 
 /// Where each component of w is held: at its lower or upper bound, or not at all.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,7 +94,7 @@ pub(super) fn hold(form: &SlackForm<'_>, sides: &[Side], point: &mut Iterate) {
 pub(super) fn settle(form: &SlackForm<'_>, sides: &[Side], point: &mut Iterate, scratch: &mut [f64]) -> f64 {
     for (slack, row) in form.slack.iter().zip(&point.rows) {
         if let Some(slack) = slack.filter(|&slack| sides[slack] == Side::Free) {
-            point.w[slack] = row.max(form.lower[slack]).min(form.upper[slack]);
+            point.w[slack] = within(*row, form.lower[slack], form.upper[slack]);
         }
     }
     form.residual(&point.w, &point.rows, &mut point.residual);

@@ -8,6 +8,7 @@ use super::kkt::{Blocks, Sides};
 use super::parameters::PARAMETERS;
 use super::state::{State, Workspace};
 use super::vectors::norm_max;
+use crate::math::within;
 use crate::model::EvaluationError;
 use active_set::{Doubt, Side, active_set, hold, hold_firmly, restrict, revise, settle};
 
@@ -175,7 +176,7 @@ impl State<'_> {
             return Ok(false);
         }
         for j in (0..n).filter(|&j| sides[j] == Side::Free) {
-            point.w[j] = (point.w[j] + direction.w[j]).max(form.lower[j]).min(form.upper[j]);
+            point.w[j] = within(point.w[j] + direction.w[j], form.lower[j], form.upper[j]);
         }
         for i in 0..rows.len() {
             point.y[i] = if in_play(i) { point.y[i] + direction.y[i] } else { 0.0 };

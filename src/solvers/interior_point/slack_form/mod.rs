@@ -9,7 +9,9 @@ mod selection;
 
 use super::parameters::PARAMETERS;
 use super::scaling;
+use crate::math::within;
 use crate::model::{Model, Pattern};
+use evaluation::Kept;
 use selection::{Entry, select_hessian, select_jacobian};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -60,6 +62,7 @@ pub(super) struct SlackForm<'a> {
     jacobian_values: Vec<f64>,
     hessian_values: Vec<f64>,
     multipliers: Vec<f64>,
+    kept: Option<Kept<'a>>,
 }
 
 impl<'a> SlackForm<'a> {
@@ -78,7 +81,7 @@ impl<'a> SlackForm<'a> {
         let (hessian, hessian_entries) = select_hessian(&meta.hessian, &free, meta.variables());
         let mut x = start.to_vec();
         for (j, x) in x.iter_mut().enumerate() {
-            *x = x.min(meta.upper[j]).max(meta.lower[j]);
+            *x = within(*x, meta.lower[j], meta.upper[j]);
         }
         let (n, m) = (meta.variables(), meta.rows());
         let (jacobian_size, hessian_size) = (meta.jacobian.len(), meta.hessian.len());
@@ -102,6 +105,7 @@ impl<'a> SlackForm<'a> {
             jacobian_values: vec![0.0; jacobian_size],
             hessian_values: vec![0.0; hessian_size],
             multipliers: vec![0.0; m],
+            kept: None,
             model,
         };
         form.apply_scales();
@@ -165,7 +169,7 @@ impl<'a> SlackForm<'a> {
     pub fn x(&mut self, w: &[f64]) -> &[f64] {
         let meta = self.model.meta();
         for ((&j, scale), w) in self.free.iter().zip(&self.variable_scale).zip(w) {
-            self.x[j] = (w * scale).min(meta.upper[j]).max(meta.lower[j]);
+            self.x[j] = within(w * scale, meta.lower[j], meta.upper[j]);
         }
         &self.x
     }
