@@ -101,13 +101,18 @@ fn by_line(network: &Network) -> Vec<[Key; 2]> {
     network.ribs.iter().map(|rib| [key(rib), key(rib)]).collect()
 }
 
-/// The middle of what the ribs cover on plan: where mirrors and turns leave it.
+/// The ribs' centre of gravity on plan: every mirror and turn of the structure leaves it where it is.
 fn middle(network: &Network) -> [f64; 2] {
-    let ends = || network.ribs.iter().flat_map(|rib| rib.geometry.ends);
-    [0, 1].map(|axis| {
-        let (low, high) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[axis]), high.max(p[axis])));
-        0.5 * (low + high)
-    })
+    let mut sums = [0.0; 3];
+    for rib in &network.ribs {
+        let (length, half) = (rib.geometry.length(), 0.5 * rib.geometry.length());
+        for end in rib.geometry.ends {
+            sums[0] += half * end.x;
+            sums[1] += half * end.y;
+        }
+        sums[2] += length;
+    }
+    [sums[0] / sums[2], sums[1] / sums[2]]
 }
 
 fn on_plan(place: Vector, middle: [f64; 2]) -> f64 {
