@@ -3,7 +3,6 @@
 use super::super::arena::Piece;
 use super::super::parameters::PARAMETERS;
 use super::{Frame, IDLE, inward, outward};
-use crate::math::within;
 use crate::solvers::barrier::pushed;
 
 impl<'m> Frame<'m> {
@@ -26,7 +25,7 @@ impl<'m> Frame<'m> {
             let x = match w {
                 _ if w == self.lower[at] => lower,
                 _ if w == self.upper[at] => upper,
-                _ => within(outward(self.d[at], w), lower, upper),
+                _ => outward(self.d[at], w).min(upper).max(lower),
             };
             (j, x)
         })

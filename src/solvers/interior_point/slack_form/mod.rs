@@ -169,7 +169,8 @@ impl<'a> SlackForm<'a> {
     pub fn x(&mut self, w: &[f64]) -> &[f64] {
         let meta = self.model.meta();
         for ((&j, scale), w) in self.free.iter().zip(&self.variable_scale).zip(w) {
-            self.x[j] = within(w * scale, meta.lower[j], meta.upper[j]);
+            // The upper bound first: a w that is no number becomes ∞ where the variable is open above, and its evaluation an error.
+            self.x[j] = (w * scale).min(meta.upper[j]).max(meta.lower[j]);
         }
         &self.x
     }
