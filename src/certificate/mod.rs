@@ -29,6 +29,7 @@ use std::time::Instant;
 use multipliers::Multipliers;
 use newton::Newton;
 use point::{Origin, Point};
+use runaway::Runaway;
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
 use second_order::{Active, Curvature, Hessian};
 
@@ -99,6 +100,11 @@ impl<'a> Certifier<'a> {
     pub fn primal_infeasibility(&self, x: &[f64]) -> Option<f64> {
         let point = Point::new(&self.origin, x).ok()?;
         Some(feasibility::of(&point, self.tolerances.constraint).infeasibility)
+    }
+
+    /// `x` where it meets every limit, else a point that does within `reach` of the variables' sizes there, by Newton's steps.
+    pub fn nearest_feasible(&self, x: &[f64], reach: f64) -> Option<Vec<f64>> {
+        feasibility::nearest(&self.origin, x, reach, self.tolerances.constraint)
     }
 
     /// Judges `x`; see [`certify`].
@@ -214,24 +220,25 @@ impl<'a> Certifier<'a> {
         };
         let falls_further = descent.is_some();
         let mut runaway = match bends_down || falls_further {
-            true => Vec::new(),
-            false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
+            true => Runaway::default(),
+            false => runaway::find(point, &active, &hessian, (self.class, dependent), &self.tolerances),
         };
         let mut elsewhere = None;
-        let may_deceive = !bends_down && !falls_further && runaway.is_empty();
+        let may_deceive = !bends_down && !falls_further && runaway.variables.is_empty();
         if may_deceive && self.class != Class::Linear && !point.is_over() {
             match newton::steps(point, &active, self.tolerances.constraint) {
                 Newton::Stays => {}
                 Newton::LeadsTo(direction) => elsewhere = Some(direction),
-                Newton::Falls(variables) => runaway = variables,
+                Newton::Falls(variables) => runaway = Runaway::settling(variables),
             }
         }
         certificate.led_on = elsewhere.is_some();
         certificate.cut_short = point.is_cut_short();
-        let goes_on = !runaway.is_empty() || certificate.led_on || certificate.cut_short;
+        let goes_on = !runaway.variables.is_empty() || certificate.led_on || certificate.cut_short;
         certificate.certified = !bends_down && !falls_further && undecided.is_none() && !goes_on;
         certificate.escape = escape.or(descent).or(elsewhere);
-        (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
+        (certificate.negative_curvature, certificate.falls_further) = (bends_down, falls_further);
+        (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);
         certificate.undecided = undecided.filter(|_| !falls_further);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())

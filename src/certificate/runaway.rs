@@ -7,7 +7,7 @@ use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
 use super::{Class, Tolerances};
 use crate::model::{EvaluationError, Model};
-use crate::recession::{Site, Valley};
+use crate::recession::{Fall, Site, Valley};
 
 /// Directions that bend by less than this, in units of σ, are looked at.
 const FLAT: f64 = 1e-3;
@@ -20,17 +20,31 @@ pub(super) const LARGEST: usize = 120;
 /// Above this order, flat directions are those of single variables.
 const LARGEST_FOR_DIRECTIONS: usize = 2_000;
 
-/// The variables along whose way the objective falls, however far one goes; empty at a true minimum. A linear problem that has a
-/// bound attains it (fundamental theorem of linear programming).
-pub(super) fn variables(
+/// Variables along whose way the objective falls, however far one goes; none at a true minimum.
+#[derive(Debug, Default)]
+pub(super) struct Runaway {
+    pub(super) variables: Vec<usize>,
+    /// It falls no less the farther one goes.
+    pub(super) is_endless: bool,
+}
+
+impl Runaway {
+    pub(super) fn settling(variables: Vec<usize>) -> Self {
+        Runaway { variables, is_endless: false }
+    }
+}
+
+/// Looks for a way along which the objective falls for ever. A linear problem that has a bound attains it (fundamental theorem of
+/// linear programming). `dependent`: the active limits depend on one another.
+pub(super) fn find(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
-    class: Class,
+    (class, dependent): (Class, bool),
     tolerances: &Tolerances,
-) -> Vec<usize> {
+) -> Runaway {
     if class == Class::Linear {
-        return Vec::new();
+        return Runaway::default();
     }
     let choice = Choice::all(point, active);
     let directions = directions(point, hessian, &choice);
@@ -53,18 +67,26 @@ pub(super) fn variables(
         let both = directions
             .iter()
             .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
-        both.into_iter().find(|direction| valley.runs_off(direction))
+        both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
     };
     let found = if follows {
-        // Far out, multipliers may be too small to tell which rows push.
+        // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
+        // variable that seems to rest on its bound.
         let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
-        runs_off(&free, &strict).or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
+        let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
+        runs_off(&free, &strict)
+            .or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
+            .or_else(|| if dependent && !all.is_empty() { runs_off(&movable(), &all) } else { None })
     } else {
         runs_off(&[], &[])
     };
     match found {
-        Some(direction) => moving(point, &direction),
-        None => towards_bounds(point, tolerances.constraint),
+        // A posynomial is positive.
+        Some((direction, fall)) => Runaway {
+            variables: moving(point, &direction),
+            is_endless: fall == Fall::Endless && class != Class::GeometricProgram,
+        },
+        None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
     }
 }
 
