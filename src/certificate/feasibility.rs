@@ -96,7 +96,7 @@ fn distance(point: &Point<'_>, x: &[f64]) -> f64 {
 fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Point<'_>) -> bool) -> Option<Vec<f64>> {
     let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
     for _ in 0..=STEPS {
-        if distance(point, &x) > reach {
+        if distance(point, &x) > reach || point.is_over() {
             return None;
         }
         let at = Point::new(point.origin, &x).ok()?;

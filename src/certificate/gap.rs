@@ -18,6 +18,10 @@ const HONEST: f64 = 1.05;
 /// What moving on to the limits gains, over the objective's own magnitude, where the slope at the point does not hold on the way;
 /// `None` where it does, or nothing is to be gained.
 pub(super) fn beyond_the_slope(point: &Point<'_>, multipliers: &Multipliers) -> Option<f64> {
+    // On the way a linear objective falls by what the multipliers say: −∇f = Jᵀy + z.
+    if point.meta().objective_is_linear {
+        return None;
+    }
     let rows = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0);
     let in_rows: f64 = rows.map(|(i, &y)| y.abs() * distance(point.rows[i], point.row_limit(i, y), point.row_term(i))).sum();
     let bounds = multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0);

@@ -7,6 +7,7 @@ mod farkas;
 mod feasibility;
 mod gap;
 mod higher_order;
+mod idle_rows;
 mod implied_box;
 mod lower_bound;
 mod multipliers;
@@ -38,6 +39,7 @@ pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
+use crate::recession::Ray;
 pub use types::{Certificate, Scope, Side, Tolerances};
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
@@ -102,6 +104,17 @@ impl<'a> Certifier<'a> {
         Some(feasibility::of(&point, self.tolerances.constraint).infeasibility)
     }
 
+    /// A way along which the objective falls for ever from a feasible point, stationary or not: outwards from where the variables
+    /// come from, the others led along the floor of the Lagrangian.
+    pub fn way_beyond(&self, x: &[f64]) -> Option<Ray> {
+        let mut point = Point::new(&self.origin, x).ok()?;
+        let feasibility = feasibility::of(&point, self.tolerances.constraint);
+        let (multipliers, found) = self.stationarity(&mut point, None, &feasibility);
+        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
+        let is_feasible = found.is_feasible(&self.tolerances);
+        is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
+    }
+
     /// `x` where it meets every limit, else a point that does within `reach` of the variables' sizes there, by Newton's steps.
     pub fn nearest_feasible(&self, x: &[f64], reach: f64) -> Option<Vec<f64>> {
         feasibility::nearest(&self.origin, x, reach, self.tolerances.constraint)
@@ -137,6 +150,7 @@ impl<'a> Certifier<'a> {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
         }
         certificate.scope = Scope::of(self.class);
+        let multipliers = self.with_idle_rows(&mut point, multipliers, &certificate)?;
         self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
@@ -188,6 +202,29 @@ impl<'a> Certifier<'a> {
         self.is_stationary(&best.1).then_some(best)
     }
 
+    /// Multipliers that prove where those found do not: rows that push nowhere leave theirs open.
+    fn with_idle_rows(
+        &self,
+        point: &mut Point<'_>,
+        multipliers: Multipliers,
+        certificate: &Certificate,
+    ) -> Result<Multipliers, EvaluationError> {
+        let (rows, bounds) = (&certificate.row_sides, &certificate.bound_sides);
+        let idle = idle_rows::of(point, rows);
+        if idle.is_empty() || self.class.is_global() || !self.is_stationary(certificate) {
+            return Ok(multipliers);
+        }
+        self.hessian(point, &multipliers)?;
+        for choice in idle_rows::choices(point, (&idle, rows), &multipliers)? {
+            let active = Active { rows, bounds, multipliers: &choice };
+            let curvature = second_order::examine(point, &active, &Hessian::of(point, &choice)?, false);
+            if curvature.escape.is_none() && curvature.undecided.is_none() && !curvature.singular {
+                return Ok(choice);
+            }
+        }
+        Ok(multipliers)
+    }
+
     /// What first order leaves open: curvature, what lies beyond it, and variables that have run away.
     fn second_order(
         &self,
@@ -204,11 +241,15 @@ impl<'a> Certifier<'a> {
         }
         let hessian = self.hessian(point, multipliers)?;
         let point = &*point;
-        let Curvature { escape, singular, dependent, undecided, flat } =
-            second_order::examine(point, &active, &hessian, self.class.is_global());
+        let Curvature { escape, singular, dependent, undecided, flat } = match self.class.is_global() && point.is_late() {
+            // First order proves; nothing is said of other minimisers.
+            true => Curvature::default(),
+            false => second_order::examine(point, &active, &hessian, self.class.is_global()),
+        };
+        let dependent = dependent || !idle_rows::of(point, active.rows).is_empty();
         // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
         let is_proof = |direction: &Vec<f64>| {
-            !(dependent && self.bends_by_choice(point, multipliers))
+            !(dependent && self.bends_by_choice(point, &active))
                 || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
         };
         let bends_down = escape.as_ref().is_some_and(is_proof);
@@ -291,8 +332,10 @@ impl<'a> Certifier<'a> {
     }
 
     /// Whether ∇²L depends on the multipliers.
-    fn bends_by_choice(&self, point: &Point<'_>, multipliers: &Multipliers) -> bool {
-        multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
+    fn bends_by_choice(&self, point: &Point<'_>, active: &Active<'_>) -> bool {
+        let multipliers = active.multipliers;
+        !idle_rows::of(point, active.rows).is_empty()
+            || multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
     }
 
     /// What the dense, the sparse and the component-wise second-order test say at `x`, whether it is stationary or not: the three

@@ -7,13 +7,15 @@ use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
 use super::{Class, Tolerances};
 use crate::model::{EvaluationError, Model};
-use crate::recession::{Fall, Site, Valley};
+use crate::recession::{self, Fall, Ray, Site, Valley};
 
 /// Directions that bend by less than this, in units of σ, are looked at.
 const FLAT: f64 = 1e-3;
 const DIRECTIONS: usize = 12;
 /// Variables followed at the most.
 const FOLLOWED: usize = 12;
+/// Variables followed from a point that is not stationary.
+const OUTWARDS: usize = 3;
 /// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
 /// matrices of order N takes N³ operations, and some thousand steps are taken.
 pub(super) const LARGEST: usize = 120;
@@ -48,46 +50,80 @@ pub(super) fn find(
     }
     let choice = Choice::all(point, active);
     let directions = directions(point, hessian, &choice);
-    let follows = choice.free.len() + choice.held.len() <= LARGEST;
+    let found = if choice.free.len() + choice.held.len() <= LARGEST {
+        // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
+        // variable that seems to rest on its bound.
+        let held = |rows: Vec<usize>| held_rows(point, rows);
+        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
+        let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
+        follow(point, active, &directions, (&free, &strict), tolerances)
+            .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
+            .or_else(|| (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?)
+    } else {
+        follow(point, active, &directions, (&[], &[]), tolerances)
+    };
+    match found {
+        Some((direction, fall)) => {
+            Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(class) }
+        }
+        None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
+    }
+}
+
+/// Whether a class leaves it open: a posynomial is positive.
+fn may_be_endless(class: Class) -> bool {
+    class != Class::GeometricProgram
+}
+
+/// The same from a feasible point that need not be stationary: outwards on the way that has led there from the start, and along the
+/// variables that have moved most on it.
+pub(super) fn beyond(point: &Point<'_>, active: &Active<'_>, class: Class, tolerances: &Tolerances) -> Option<Ray> {
+    let choice = Choice::all(point, active);
+    let (free, held) = (choice.loose_variables(), held_rows(point, choice.held.clone()));
+    if class == Class::Linear || free.len() + held.len() > LARGEST {
+        return None;
+    }
+    let way: Vec<f64> = point.x.iter().zip(&point.meta().start).map(|(x, start)| x - start).collect();
+    let mut farthest: Vec<usize> = free.iter().copied().filter(|&j| way[j] != 0.0).collect();
+    let moved = |j: usize| (way[j] / recession::size(point.meta().start[j])).abs();
+    farthest.sort_by(|&a, &b| moved(b).total_cmp(&moved(a)));
+    let axis = |j: usize| {
+        let mut axis = vec![0.0; way.len()];
+        axis[j] = way[j];
+        axis
+    };
+    let axes = farthest.into_iter().take(OUTWARDS).map(axis);
+    let directions: Vec<Vec<f64>> = axes.chain([way.clone()]).collect();
+    let (direction, fall) = follow(point, active, &directions, (&free, &held), tolerances)?;
+    let fall = if may_be_endless(class) { fall } else { Fall::Settling };
+    Some(Ray { fall, direction, from: point.x.to_vec() })
+}
+
+/// The first of the directions, each both ways, that runs off.
+fn follow(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    directions: &[Vec<f64>],
+    (free, held): (&[usize], &[(usize, f64)]),
+    tolerances: &Tolerances,
+) -> Option<(Vec<f64>, Fall)> {
     let is_feasible = |x: &[f64]| {
         !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
     };
-    let held = |rows: Vec<usize>| held_rows(point, rows);
-    let runs_off = |free: &[usize], held: &[(usize, f64)]| {
-        let site = Site {
-            model: &point.origin.model,
-            x: point.x,
-            sizes: point.plain_sizes(),
-            free,
-            held,
-            multipliers: &active.multipliers.rows,
-            is_feasible: &is_feasible,
-        };
-        let valley = Valley::new(site);
-        let both = directions
-            .iter()
-            .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
-        both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
+    let site = Site {
+        model: &point.origin.model,
+        x: point.x,
+        sizes: point.plain_sizes(),
+        free,
+        held,
+        multipliers: &active.multipliers.rows,
+        is_feasible: &is_feasible,
     };
-    let found = if follows {
-        // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
-        // variable that seems to rest on its bound.
-        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
-        let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
-        runs_off(&free, &strict)
-            .or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
-            .or_else(|| if dependent && !all.is_empty() { runs_off(&movable(), &all) } else { None })
-    } else {
-        runs_off(&[], &[])
-    };
-    match found {
-        // A posynomial is positive.
-        Some((direction, fall)) => Runaway {
-            variables: moving(point, &direction),
-            is_endless: fall == Fall::Endless && class != Class::GeometricProgram,
-        },
-        None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
-    }
+    let valley = Valley::new(site);
+    let both = directions
+        .iter()
+        .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
+    both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
 /// Rows with the limits they are held to.

@@ -46,7 +46,8 @@ pub(super) fn examine(session: &Session<'_>, solvers: &[Solver<'_>], answers: &[
             .or_else(|| points.iter().find_map(|x| terrain.power_curve(x)))
     });
     let is_open = meta.lower.iter().chain(&meta.upper).any(|bound| bound.is_infinite());
-    let found = from_points.or_else(|| if is_open { boxed(session, solvers) } else { None });
+    let valley = || points.iter().find_map(|x| if session.clock.is_over() { None } else { session.judge.way_beyond(x) });
+    let found = from_points.or_else(|| if is_open { valley().or_else(|| boxed(session, solvers)) } else { None });
     // A way that settles is worth less than a point's own, which falls without end.
     match (&found, judged(answers)) {
         (Some(Ray { fall: Fall::Endless, .. }), _) | (_, None) => found,

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use super::ledger::Ledger;
 use super::seeds::Seeds;
 use super::session::{Session, Solver};
-use super::{Answer, Minimum, work};
+use super::{Answer, Minimum, merit, work};
+use crate::certificate::Certificate;
 
 /// Relative distance within which two minima of equal value are one.
 const SAME: f64 = 1e-4;
@@ -25,14 +26,16 @@ pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize]
     (0..count).into_par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// A certified answer not above `value` from one of a few seeded starts, where one is found soon: what runs off from one start may
+/// A certified answer not above `value`, beyond what counts as agreement, from one of a few seeded starts, where one is found soon: what runs off from one start may
 /// be attained from another.
 pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
+    let session = ledger.session;
     let is_attained = |answer: &Answer| {
-        answer.certificate.as_ref().is_some_and(|certificate| certificate.certified && certificate.objective <= value)
+        let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
+        answer.certificate.as_ref().is_some_and(|own| own.certified && reaches(own))
     };
     let allowed = work::further_run(0.0) / FEW as f64;
-    let from = |index: u64| from_seed(ledger.session, ledger.solvers, &ledger.order(), index + 3, allowed);
+    let from = |index: u64| from_seed(session, ledger.solvers, &ledger.order(), index + 3, allowed);
     (0..FEW).find_map(|index| from(index).filter(|found| is_attained(&found.answer)))
 }
 

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::{Answer, Task};
-use super::{pool, work};
+use super::pool;
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model, Substitution};
@@ -67,9 +67,9 @@ impl<'a> Session<'a> {
         solver.backend.work_per_evaluation(model).max(1.0)
     }
 
-    /// A budget of so much work on `model`, with a deadline far beyond what that should take.
+    /// A budget of so much work on `model`, and most of the time that is left.
     pub(super) fn budget(&self, solver: Solver<'_>, model: &dyn Model, allowed: f64) -> Budget<'a> {
-        let whole = self.clock.share(0.9, work::fence(allowed));
+        let whole = self.clock.share(0.9);
         let evaluations = allowed / solver.backend.work_per_evaluation(model).max(1.0);
         // Saturates: an infinite allowance is u64::MAX.
         Budget { max_evaluations: whole.max_evaluations.min(evaluations as u64), ..whole }
