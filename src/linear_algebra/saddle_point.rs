@@ -65,7 +65,7 @@ impl SaddlePoint {
     /// Whether S + shift·W bends down on the null space of A.
     pub fn bends_down(&mut self, shift: f64) -> bool {
         let (p, m) = (self.free, self.held);
-        if self.bends_up(shift) {
+        if self.is_positive_on_null_space(shift) {
             return false;
         }
         let weights = std::mem::take(&mut self.weights);
@@ -77,7 +77,7 @@ impl SaddlePoint {
     /// S + shift·W + AᵀPA is positive definite for a P ≤ I/δ. Then S + shift·W + AᵀA/δ is, which is the Schur complement of −δI
     /// in [S + shift·W, Aᵀ; A, −δI], and that matrix has one negative eigenvalue per row. Tested in units of the yardsticks W,
     /// each row of A at the length one: nothing is lost in rounding.
-    fn bends_up(&mut self, shift: f64) -> bool {
+    fn is_positive_on_null_space(&mut self, shift: f64) -> bool {
         let (p, m) = (self.free, self.held);
         reset(&mut self.matrix, p * p);
         for i in 0..p {

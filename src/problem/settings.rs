@@ -1,14 +1,27 @@
 //! `[solver]`: what is accepted, and when to give up. fmincon's names and defaults where it has them.
 
-/// Backends by name, built in or not.
-pub const BACKENDS: &[&str] = &["nlopt", "argmin"];
+use std::collections::BTreeMap;
 
-/// Names of NLopt's algorithms in files and on the command line.
-pub const NLOPT_ALGORITHMS: &[&str] =
-    &["auto", "slsqp", "mma", "ccsaq", "auglag", "lbfgs", "tnewton", "var2", "cobyla", "bobyqa", "isres", "mlsl"];
+/// What files and the command line may call a backend and its algorithms, whether it is built in or not.
+#[derive(Debug)]
+pub struct BackendNames {
+    /// The backend.
+    pub name: &'static str,
+    /// Its algorithms, besides [`AUTO`].
+    pub algorithms: &'static [&'static str],
+}
 
-/// Names of the algorithms run by argmin.
-pub const ARGMIN_ALGORITHMS: &[&str] = &["auto", "interior-point", "augmented-lagrangian"];
+/// The algorithm that lets the backend choose.
+pub const AUTO: &str = "auto";
+
+/// All backends. `run::choice` tests that those built in have these names.
+pub const BACKENDS: &[BackendNames] = &[
+    BackendNames {
+        name: "nlopt",
+        algorithms: &["slsqp", "mma", "ccsaq", "auglag", "lbfgs", "tnewton", "var2", "cobyla", "bobyqa", "isres", "mlsl"],
+    },
+    BackendNames { name: "argmin", algorithms: &["interior-point", "augmented-lagrangian"] },
+];
 
 /// The settings of one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,10 +40,15 @@ pub struct Settings {
     pub max_evaluations: u64,
     /// Seconds for the whole command, all backends together.
     pub max_seconds: f64,
-    /// NLopt's algorithm, or `auto`.
-    pub nlopt_algorithm: String,
-    /// argmin's algorithm, or `auto`.
-    pub argmin_algorithm: String,
+    /// Algorithms by the name of their backend; [`AUTO`] for those left out.
+    pub algorithms: BTreeMap<String, String>,
+}
+
+impl Settings {
+    /// The algorithm asked of a backend.
+    pub fn algorithm(&self, backend: &str) -> &str {
+        self.algorithms.get(backend).map_or(AUTO, String::as_str)
+    }
 }
 
 impl Default for Settings {
@@ -43,8 +61,7 @@ impl Default for Settings {
             max_iterations: 500_000,
             max_evaluations: 10_000_000,
             max_seconds: 600.0,
-            nlopt_algorithm: "auto".into(),
-            argmin_algorithm: "auto".into(),
+            algorithms: BTreeMap::new(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Runs the steps of a plan until the certificate passes, a budget ends, or the plan does.
 
 use super::attempt::{End, run};
-use super::form::Form;
+use super::form::InequalityForm;
 use super::plan::{StartPoint, Step};
 use super::watch::Watch;
 use crate::math::split_mix::SplitMix;
@@ -61,7 +61,7 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
     };
     evaluator.meta().clamp(&mut origin);
     let form = valid_start(evaluator, &origin, sizes).and_then(|(x, scales)| {
-        let mut form = Form::new(evaluator, scales, &x);
+        let mut form = InequalityForm::new(evaluator, scales, &x);
         if step.algorithm.most_equalities.is_some() {
             form.keep_independent()?;
         }

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::super::Findings;
-use super::point::Point;
+use super::point::NamedValues;
 use crate::backends::Termination;
 use crate::certificate::Scope;
 use crate::crosscheck::{Agreement, Answer};
@@ -110,13 +110,13 @@ impl Serialize for MinimaPart<'_> {
         struct MinimumPart<'a> {
             objective: f64,
             count: usize,
-            variables: Point<'a>,
+            variables: NamedValues<'a>,
         }
         let findings = self.0;
         serializer.collect_seq(findings.outcome.minima.iter().map(|minimum| MinimumPart {
             objective: findings.in_users_sense(minimum.objective),
             count: minimum.count,
-            variables: Point { findings, x: &minimum.x },
+            variables: NamedValues { findings, x: &minimum.x },
         }))
     }
 }

@@ -31,6 +31,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     exact: 1e-14,
     accepted: 1e-12,
     no_multiplier: 1e-12,
+    idle: 1e-10,
+    level: 1e-12,
 };
 
 /// What can be chosen, with the inequality each number stands in.
@@ -76,4 +78,8 @@ pub(super) struct Parameters {
     pub accepted: f64,
     /// Multipliers of the wrong sign up to this are zero.
     pub no_multiplier: f64,
+    /// An earlier answer's row is at a limit where its scaled multiplier |y_i| is above this.
+    pub idle: f64,
+    /// A row is scaled by its slope where ‖∇c_i‖_∞ is above this share of its largest limit, by that limit otherwise.
+    pub level: f64,
 }
