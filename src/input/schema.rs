@@ -1,6 +1,8 @@
 //! The JSON Schema of the problem file, for completion and checks in editors.
 
 mod structure;
+#[cfg(test)]
+mod tests;
 
 use serde_json::{Map, Value, json};
 
@@ -235,24 +237,4 @@ fn solver() -> Value {
 fn algorithm(backend: &BackendNames) -> Value {
     let names: Vec<&str> = [AUTO].iter().chain(backend.algorithms).copied().collect();
     object(json!({ "algorithm": { "enum": names, "default": AUTO } }), &[])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_kind_has_a_rule_with_its_dimensions() {
-        let section = schema()["properties"]["sections"]["additionalProperties"].clone();
-        let rules = section["allOf"].as_array().cloned().unwrap_or_default();
-        assert_eq!(rules.len(), sections::KINDS.len());
-        assert_eq!(rules[0]["then"]["required"], json!(["kind", "b", "h"]));
-        for (kind, form) in sections::forms() {
-            let rule = rules.iter().find(|rule| rule["if"]["properties"]["kind"]["const"] == kind.name()).expect("a rule");
-            for name in form.dimensions {
-                let key = list_name(name).unwrap_or(name);
-                assert!(rule["then"]["properties"].get(key).is_some(), "{}: {key}", kind.name());
-            }
-        }
-    }
 }
