@@ -24,21 +24,28 @@ pub const BACKENDS: &[BackendNames] = &[
 ];
 
 /// The settings of one run.
+///
+/// ```
+/// use ribopt::Settings;
+///
+/// let hurried = Settings { backends: vec!["argmin".into()], max_seconds: 5.0, ..Settings::default() };
+/// assert_eq!((hurried.algorithm("argmin"), hurried.optimality_tolerance), ("auto", 1e-6));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Backends by name, in order; empty: all that are built in.
     pub backends: Vec<String>,
-    /// Largest accepted dual infeasibility and complementarity (fmincon's TolFun). In (0, 1).
+    /// Largest accepted dual infeasibility and complementarity (fmincon's TolFun). In (0, 1); 1e-6 by default.
     pub optimality_tolerance: f64,
-    /// Relative step below which a run has stopped moving (TolX). In (0, 1).
+    /// Relative step below which a run has stopped moving (TolX). In (0, 1); 1e-6 by default.
     pub step_tolerance: f64,
-    /// Largest accepted primal infeasibility, relative (TolCon). In (0, 1).
+    /// Largest accepted primal infeasibility, relative (TolCon). In (0, 1); 1e-8 by default.
     pub constraint_tolerance: f64,
-    /// Iterations per backend (MaxIter).
+    /// Iterations per backend (MaxIter); 500 000 by default.
     pub max_iterations: u64,
-    /// Evaluations per backend (MaxFunEvals).
+    /// Evaluations per backend (MaxFunEvals); ten million by default.
     pub max_evaluations: u64,
-    /// Seconds for the whole command, all backends together.
+    /// Seconds for the whole command, all backends together; 600 by default.
     pub max_seconds: f64,
     /// Algorithms by the name of their backend; [`AUTO`] for those left out.
     pub algorithms: BTreeMap<String, String>,

@@ -86,7 +86,7 @@ fn size(j: usize, x: f64, start: f64, meta: &Meta) -> f64 {
     x.abs().max(start.abs()).max(unknown)
 }
 
-/// A little beside `x`, in its own proportions: what runs off or vanishes is not called back by its size at the start.
+/// A little beside `x`, in its own proportions: a variable that has grown or shrunk by orders of magnitude is moved by its present size, not by that of its start.
 fn beside(x: &[f64], meta: &Meta) -> Vec<f64> {
     let mut random = SplitMix::new(SEED);
     let size = |j: usize, x: f64| if x == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { x.abs() };

@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use super::super::Findings;
 use super::point::NamedValues;
 use crate::backends::Termination;
-use crate::certificate::Scope;
+use crate::certificate::Extent;
 use crate::crosscheck::{Agreement, Answer};
 
 /// The word for why a run stopped.
@@ -20,10 +20,10 @@ fn termination(termination: Termination) -> &'static str {
 }
 
 /// The word for how far a certificate reaches.
-pub(super) fn scope(scope: Scope) -> &'static str {
+pub(super) fn scope(scope: Extent) -> &'static str {
     match scope {
-        Scope::Global => "global",
-        Scope::Local => "local",
+        Extent::Global => "global",
+        Extent::Local => "local",
     }
 }
 

@@ -1,12 +1,13 @@
 //! Every number of the small interior point that is a choice. Symbols as in the sparse one, where it has them.
 
+use crate::model::components;
 use crate::solvers::barrier::{BarrierRule, InertiaCorrection};
 
 /// The parameters the solver runs with.
 pub(super) const PARAMETERS: Parameters = Parameters {
-    largest: 64,
-    fewest_variables: 200,
-    batch: 128,
+    largest: components::SMALL,
+    fewest_variables: components::FEWEST_VARIABLES,
+    batch: components::BATCH,
     steps: 5,
     barrier: BarrierRule::down_to(1e-11),
     kappa_1: 1e-2,
@@ -40,7 +41,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
 pub(super) struct Parameters {
     /// Components of more variables or rows than this are no work for dense matrices.
     pub largest: usize,
-    /// Models with fewer variables are left in one piece: there is nothing to gain.
+    /// Models with fewer variables are solved as a whole.
     pub fewest_variables: usize,
     /// Components a thread takes at a time.
     pub batch: usize,

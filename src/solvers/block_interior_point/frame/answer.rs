@@ -2,7 +2,6 @@
 
 use super::super::arena::ComponentIterate;
 use super::super::parameters::PARAMETERS;
-use super::super::parameters::PARAMETERS;
 use super::{Frame, inward, outward};
 use crate::solvers::barrier::pushed;
 

@@ -34,7 +34,7 @@ pub(super) fn active_set(form: &SlackForm<'_>, iterate: &Iterate, doubt: Doubt) 
         .collect()
 }
 
-/// Lets go what is held with a multiplier of the wrong sign, and holds what has run into a bound. Whether any did.
+/// Releases what is held with a multiplier of the wrong sign, and holds what has run into a bound. Whether any did.
 pub(super) fn revise(form: &SlackForm<'_>, sides: &mut [BoundState], point: &Iterate, scratch: &mut [f64]) -> bool {
     point.lagrangian_gradient(form, scratch);
     let mut changed = false;
