@@ -10,6 +10,7 @@ mod higher_order;
 mod idle_rows;
 mod implied_box;
 mod lower_bound;
+mod messages;
 mod multipliers;
 mod newton;
 mod point;
@@ -22,7 +23,6 @@ mod second_order;
 #[cfg(test)]
 mod tests;
 mod types;
-mod words;
 
 use feasibility::{Feasibility, worst_violation};
 use std::time::Instant;
@@ -40,7 +40,7 @@ pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
 use crate::recession::Ray;
-pub use types::{Certificate, Scope, Side, Tolerances};
+pub use types::{Certificate, Extent, Side, Tolerances};
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
 const REFINABLE: f64 = 1e-2;
@@ -110,7 +110,8 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x).ok()?;
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
         let (multipliers, found) = self.stationarity(&mut point, None, &feasibility);
-        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
+        let Certificate { row_sides: rows, bound_sides: bounds, dual_infeasibility: residual, .. } = &found;
+        let active = Active { rows, bounds, multipliers: &multipliers, residual: *residual };
         let is_feasible = found.is_feasible(&self.tolerances);
         is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
     }
@@ -149,10 +150,10 @@ impl<'a> Certifier<'a> {
             }
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
         }
-        certificate.scope = Scope::of(self.class);
+        certificate.scope = Extent::of(self.class);
         let multipliers = self.with_idle_rows(&mut point, multipliers, &certificate)?;
         self.second_order(&mut point, &multipliers, &mut certificate)?;
-        certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
+        certificate.messages = messages::sentences(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
         certificate.variable_scales = point.plain_sizes().to_vec();
@@ -173,8 +174,16 @@ impl<'a> Certifier<'a> {
         {
             return passed;
         }
-        let found = multipliers::find(point, witness);
+        let mut found = multipliers::find(point, witness);
         let mut certificate = self.first_order(point, &found, feasibility);
+        if witness.is_some() && certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
+            // A guess decides where the search begins, and may lead it astray where limits depend on one another.
+            let unguided = multipliers::find(point, None);
+            let own = self.first_order(point, &unguided, feasibility);
+            if self.is_stationary(&own) {
+                (found, certificate) = (unguided, own);
+            }
+        }
         if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
             // Without second derivatives the slope alone has to do.
             point.add_curvature().unwrap_or_default();
@@ -210,13 +219,16 @@ impl<'a> Certifier<'a> {
         certificate: &Certificate,
     ) -> Result<Multipliers, EvaluationError> {
         let (rows, bounds) = (&certificate.row_sides, &certificate.bound_sides);
-        let idle = idle_rows::of(point, rows);
+        let idle = idle_rows::of(point, (rows, bounds));
         if idle.is_empty() || self.class.is_global() || !self.is_stationary(certificate) {
             return Ok(multipliers);
         }
         self.hessian(point, &multipliers)?;
-        for choice in idle_rows::choices(point, (&idle, rows), &multipliers)? {
-            let active = Active { rows, bounds, multipliers: &choice };
+        for choice in idle_rows::choices(point, &idle, &multipliers)? {
+            let active = Active { rows, bounds, multipliers: &choice, residual: certificate.dual_infeasibility };
+            if residuals::complementarity(point, &choice, self.tolerances.optimality) > self.tolerances.optimality {
+                break;
+            }
             let curvature = second_order::examine(point, &active, &Hessian::of(point, &choice)?, false);
             if curvature.escape.is_none() && curvature.undecided.is_none() && !curvature.singular {
                 return Ok(choice);
@@ -232,7 +244,8 @@ impl<'a> Certifier<'a> {
         multipliers: &Multipliers,
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
-        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
+        let (rows, bounds, residual) = (&certificate.row_sides, &certificate.bound_sides, certificate.dual_infeasibility);
+        let active = Active { rows, bounds, multipliers, residual };
         if !self.is_stationary(certificate) {
             if certificate.is_feasible(&self.tolerances) {
                 certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
@@ -246,26 +259,27 @@ impl<'a> Certifier<'a> {
             true => Curvature::default(),
             false => second_order::examine(point, &active, &hessian, self.class.is_global()),
         };
-        let dependent = dependent || !idle_rows::of(point, active.rows).is_empty();
+        let has_idle_rows = !idle_rows::of(point, (active.rows, active.bounds)).is_empty();
+        let dependent = dependent || has_idle_rows;
         // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
         let is_proof = |direction: &Vec<f64>| {
-            !(dependent && self.bends_by_choice(point, &active))
+            !(dependent && (has_idle_rows || self.bends_by_choice(point, multipliers)))
                 || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
         };
-        let bends_down = escape.as_ref().is_some_and(is_proof);
-        let undecided = if escape.is_some() && !bends_down { Some(0) } else { undecided };
+        let has_negative_curvature = escape.as_ref().is_some_and(is_proof);
+        let undecided = if escape.is_some() && !has_negative_curvature { Some(0) } else { undecided };
         // Convex problems have no inflections, and need no second order: the first proves.
         let (undecided, descent) = match escape.is_some() || self.class.is_global() {
             true => (undecided.filter(|_| !self.class.is_global()), None),
             false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
-        let falls_further = descent.is_some();
-        let mut runaway = match bends_down || falls_further {
+        let descends_at_higher_order = descent.is_some();
+        let mut runaway = match has_negative_curvature || descends_at_higher_order {
             true => Runaway::default(),
             false => runaway::find(point, &active, &hessian, (self.class, dependent), &self.tolerances),
         };
         let mut elsewhere = None;
-        let may_deceive = !bends_down && !falls_further && runaway.variables.is_empty();
+        let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.variables.is_empty();
         if may_deceive && self.class != Class::Linear && !point.is_over() {
             match newton::steps(point, &active, self.tolerances.constraint) {
                 Newton::Stays => {}
@@ -276,11 +290,11 @@ impl<'a> Certifier<'a> {
         certificate.led_on = elsewhere.is_some();
         certificate.cut_short = point.is_cut_short();
         let goes_on = !runaway.variables.is_empty() || certificate.led_on || certificate.cut_short;
-        certificate.certified = !bends_down && !falls_further && undecided.is_none() && !goes_on;
+        certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
         certificate.escape = escape.or(descent).or(elsewhere);
-        (certificate.negative_curvature, certificate.falls_further) = (bends_down, falls_further);
+        (certificate.negative_curvature, certificate.descends_at_higher_order) = (has_negative_curvature, descends_at_higher_order);
         (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);
-        certificate.undecided = undecided.filter(|_| !falls_further);
+        certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
     }
@@ -303,7 +317,7 @@ impl<'a> Certifier<'a> {
         Certificate {
             objective: point.objective,
             primal_infeasibility: feasibility.infeasibility,
-            met_only_far_away: feasibility.only_far_away,
+            feasible_only_at_infinity: feasibility.only_far_away,
             dual_infeasibility: worst_slope(point, multipliers, None).1,
             complementarity: residuals::complementarity(point, multipliers, self.tolerances.optimality),
             row_sides: (0..meta.rows()).map(row_side).collect(),
@@ -332,10 +346,8 @@ impl<'a> Certifier<'a> {
     }
 
     /// Whether ∇²L depends on the multipliers.
-    fn bends_by_choice(&self, point: &Point<'_>, active: &Active<'_>) -> bool {
-        let multipliers = active.multipliers;
-        !idle_rows::of(point, active.rows).is_empty()
-            || multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
+    fn bends_by_choice(&self, point: &Point<'_>, multipliers: &Multipliers) -> bool {
+        multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
     }
 
     /// What the dense, the sparse and the component-wise second-order test say at `x`, whether it is stationary or not: the three
@@ -347,8 +359,9 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x)?;
         let multipliers = multipliers::find(&point, None);
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
-        let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
+        let Certificate { row_sides: rows, bound_sides: bounds, dual_infeasibility: residual, .. } =
+            self.first_order(&point, &multipliers, &feasibility);
+        let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers, residual };
         let hessian = self.hessian(&mut point, &multipliers)?;
         Ok(second_order::by_every_test(&point, &active, &hessian))
     }

@@ -64,15 +64,15 @@ pub(super) fn find(
     };
     match found {
         Some((direction, fall)) => {
-            Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(class) }
+            Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
         }
         None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
     }
 }
 
-/// Whether a class leaves it open: a posynomial is positive.
-fn may_be_endless(class: Class) -> bool {
-    class != Class::GeometricProgram
+/// Whether the class leaves it open: a posynomial that is minimised, not the inverse of one that is maximised, stays positive.
+fn may_be_endless(point: &Point<'_>, class: Class) -> bool {
+    class != Class::GeometricProgram || point.objective < 0.0
 }
 
 /// The same from a feasible point that need not be stationary: outwards on the way that has led there from the start, and along the
@@ -95,7 +95,7 @@ pub(super) fn beyond(point: &Point<'_>, active: &Active<'_>, class: Class, toler
     let axes = farthest.into_iter().take(OUTWARDS).map(axis);
     let directions: Vec<Vec<f64>> = axes.chain([way.clone()]).collect();
     let (direction, fall) = follow(point, active, &directions, (&free, &held), tolerances)?;
-    let fall = if may_be_endless(class) { fall } else { Fall::Settling };
+    let fall = if may_be_endless(point, class) { fall } else { Fall::Settling };
     Some(Ray { fall, direction, from: point.x.to_vec() })
 }
 

@@ -8,9 +8,10 @@ use crate::recession::{Fall, Ray, Terrain, size};
 
 /// Half widths of the artificial boxes, in units of the variables' own sizes.
 const BOXES: [f64; 2] = [1e3, 1e5];
-/// How many times its own size a variable has moved that runs off, and how many hide a violation in rounding.
-const AWAY: f64 = 100.0;
-const LOST: f64 = 1e4;
+/// Variable j diverges where |x_j − start_j| > DIVERGED·size_j.
+const DIVERGED: f64 = 100.0;
+/// Rounding may hide a violation at x where |x_j − start_j| > TOO_FAR·size_j for some j.
+const TOO_FAR: f64 = 1e4;
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
 /// Places on a way are led back to the rows within this, relative to the variables there.
@@ -19,7 +20,9 @@ const BESIDE: f64 = 0.1;
 /// Follows ways with the user's model.
 fn with_terrain<T>(session: &Session<'_>, follow: impl FnOnce(&Terrain<'_>) -> T) -> T {
     let nearest = |x: &[f64]| if session.clock.is_over() { None } else { session.judge.nearest_feasible(x, BESIDE) };
-    let is_bounded = session.task.class == Class::GeometricProgram;
+    // A posynomial that is minimised stays positive.
+    let is_positive = || session.task.model.objective(session.task.start).is_ok_and(|value| value >= 0.0);
+    let is_bounded = session.task.class == Class::GeometricProgram && is_positive();
     follow(&Terrain { model: session.task.model, start: session.task.start, nearest: &nearest, is_bounded })
 }
 
@@ -70,12 +73,12 @@ fn judged(answers: &[Answer]) -> Option<Ray> {
 }
 
 /// Whether what another backend found overrules certified points: it goes on falling below them, or, at the same value, certified
-/// points have gone as far in the variables that run off.
+/// points have gone as far in the variables that diverge.
 pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
     let certificate = best.certificate.as_ref()?;
     let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
     let start = &session.task.model.meta().start;
-    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > AWAY * size(start[j]);
+    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > DIVERGED * size(start[j]);
     let overrules = |terrain: &Terrain<'_>, answer: &Answer| {
         let (x, own) = (&answer.solution.x, answer.certificate.as_ref()?);
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
@@ -90,10 +93,10 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
 }
 
-/// Whether a point lies so far out that rounding may hide what violates the rows there.
-pub(super) fn is_far_out(session: &Session<'_>, x: &[f64]) -> bool {
+/// Whether a point lies so far from the start that rounding may hide a violation of the rows.
+pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let start = &session.task.model.meta().start;
-    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > LOST * size(start))
+    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > TOO_FAR * size(start))
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.

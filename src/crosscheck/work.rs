@@ -42,9 +42,9 @@ pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
     (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(1000.0 * cost)
 }
 
-/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves.
+/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves. Half of what finding it may take.
 pub(super) fn explanation(first: f64, cost: f64) -> f64 {
-    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(1000.0 * cost)
+    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(500.0 * cost)
 }
 
 /// Evaluations below which a run is not worth beginning.

@@ -92,10 +92,15 @@ impl Terrain<'_> {
         if largest < FAR.ln() {
             return None;
         }
-        let place = |decade: f64| x.iter().zip(&powers).map(|(x, power)| x * 10f64.powf(decade * power / largest)).collect();
-        let outward = (1..DECADES).map(|decade| place(f64::from(decade)));
-        let inward = (1..=BACK).map(|at| place(-largest / std::f64::consts::LN_10 * f64::from(at) / f64::from(BACK)));
-        let fall = self.fall(x, outward, inward)?;
+        let place =
+            |decade: f64| x.iter().zip(&powers).map(|(x, power)| x * 10f64.powf(decade * power / largest)).collect::<Vec<f64>>();
+        // Half the way back, where numbers end beyond the point.
+        let decades = largest / std::f64::consts::LN_10;
+        let fall = [0.0, -0.5 * decades].into_iter().find_map(|base| {
+            let outward = (1..DECADES).map(|decade| place(base + f64::from(decade)));
+            let inward = (1..=BACK).map(|at| place(base - (base + decades) * f64::from(at) / f64::from(BACK)));
+            self.fall(&place(base), outward, inward)
+        })?;
         let growing = |j: usize| if powers[j] > 0.0 { powers[j] / largest * x[j] } else { 0.0 };
         let longest = (0..x.len()).map(growing).fold(0.0, |most: f64, v| most.max(v.abs()));
         let direction = (0..x.len()).map(|j| growing(j) / longest).collect();
