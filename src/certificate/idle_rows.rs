@@ -41,11 +41,7 @@ pub(super) fn of(point: &Point<'_>, (rows, bounds): (&[Side], &[Side])) -> Vec<I
 }
 
 /// Multipliers that differ in those of idle rows and of the bounds these rest on, all of them as strong as one another.
-pub(super) fn choices(
-    point: &Point<'_>,
-    idle: &[Idle],
-    multipliers: &Multipliers,
-) -> Result<Vec<Multipliers>, EvaluationError> {
+pub(super) fn choices(point: &Point<'_>, idle: &[Idle], multipliers: &Multipliers) -> Result<Vec<Multipliers>, EvaluationError> {
     if idle.len() > MOST {
         return Ok(Vec::new());
     }

@@ -30,16 +30,16 @@ use std::time::Instant;
 use multipliers::Multipliers;
 use newton::Newton;
 use point::{Origin, Point};
-use runaway::Runaway;
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
+use runaway::Runaway;
 use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
+use crate::recession::Ray;
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
-use crate::recession::Ray;
 pub use types::{Certificate, Extent, Side, Tolerances};
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
@@ -278,25 +278,34 @@ impl<'a> Certifier<'a> {
             true => Runaway::default(),
             false => runaway::find(point, &active, &hessian, (self.class, dependent), &self.tolerances),
         };
-        let mut elsewhere = None;
         let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.variables.is_empty();
-        if may_deceive && self.class != Class::Linear && !point.is_over() {
-            match newton::steps(point, &active, self.tolerances.constraint) {
-                Newton::Stays => {}
-                Newton::LeadsTo(direction) => elsewhere = Some(direction),
-                Newton::Falls(variables) => runaway = Runaway::settling(variables),
-            }
-        }
+        let elsewhere = if may_deceive { self.led_on(point, &active, &mut runaway) } else { None };
         certificate.led_on = elsewhere.is_some();
         certificate.cut_short = point.is_cut_short();
         let goes_on = !runaway.variables.is_empty() || certificate.led_on || certificate.cut_short;
         certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
         certificate.escape = escape.or(descent).or(elsewhere);
-        (certificate.negative_curvature, certificate.descends_at_higher_order) = (has_negative_curvature, descends_at_higher_order);
+        (certificate.negative_curvature, certificate.descends_at_higher_order) =
+            (has_negative_curvature, descends_at_higher_order);
         (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);
         certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
+    }
+
+    /// Where Newton's steps lead, if they do not stay; those that fall without end are noted as a way that runs away.
+    fn led_on(&self, point: &Point<'_>, active: &Active<'_>, runaway: &mut Runaway) -> Option<Vec<f64>> {
+        if self.class == Class::Linear || point.is_over() {
+            return None;
+        }
+        match newton::steps(point, active, self.tolerances.constraint) {
+            Newton::Stays => None,
+            Newton::LeadsTo(direction) => Some(direction),
+            Newton::Falls(variables) => {
+                *runaway = Runaway::settling(variables);
+                None
+            }
+        }
     }
 
     /// The three residuals and the active sides.

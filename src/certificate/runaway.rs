@@ -14,8 +14,9 @@ const FLAT: f64 = 1e-3;
 const DIRECTIONS: usize = 12;
 /// Variables followed at the most.
 const FOLLOWED: usize = 12;
-/// Variables followed from a point that is not stationary.
+/// Variables followed from a point that is not stationary, or because they are so many of their sizes away from the start.
 const OUTWARDS: usize = 3;
+const FAR: f64 = 1e3;
 /// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
 /// matrices of order N takes N³ operations, and some thousand steps are taken.
 pub(super) const LARGEST: usize = 120;
@@ -58,7 +59,9 @@ pub(super) fn find(
         let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
         follow(point, active, &directions, (&free, &strict), tolerances)
             .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
-            .or_else(|| (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?)
+            .or_else(|| {
+                (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?
+            })
     } else {
         follow(point, active, &directions, (&[], &[]), tolerances)
     };
@@ -120,9 +123,8 @@ fn follow(
         is_feasible: &is_feasible,
     };
     let valley = Valley::new(site);
-    let both = directions
-        .iter()
-        .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
+    let both =
+        directions.iter().flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
     both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
@@ -159,6 +161,10 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
             found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
             found.push(point.x.to_vec());
         }
+        // A variable far from where it comes from may follow a row that only seems to hold it.
+        let start = |j: usize| meta.start[j];
+        let is_far = |j: &usize| (point.x[*j] - start(*j)).abs() > FAR * recession::size(start(*j));
+        axes.extend(free.iter().copied().filter(is_open).filter(is_far).take(OUTWARDS));
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));

@@ -43,13 +43,7 @@ pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
 }
 
 /// The backends in turn from one start, until an answer is certified; the best of them.
-fn from_start(
-    session: &Session<'_>,
-    solvers: &[Solver<'_>],
-    order: &[usize],
-    start: Vec<f64>,
-    allowed: f64,
-) -> Option<Found> {
+fn from_start(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], start: Vec<f64>, allowed: f64) -> Option<Found> {
     let mut best: Option<Found> = None;
     for &k in order {
         if session.clock.is_over() {

@@ -1,8 +1,8 @@
 //! The task with what is needed to run backends and to judge what they bring.
 
 use super::clock::Clock;
-use super::{Answer, Task};
 use super::pool;
+use super::{Answer, Task};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model, Substitution};
@@ -103,7 +103,8 @@ impl<'a> Session<'a> {
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
         let start = Start { x: &inward, multipliers: None, budget, stop: &stop, part: None };
         let mut solution = self.solve(solver, other.model(), &start, &mut translated);
-        solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(&y));
+        let z = &solution.x;
+        solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(self.task.model, z, &y));
         solution.x = self.outward(&solution.x);
         self.judged(solver, solution)
     }

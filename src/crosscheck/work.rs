@@ -37,14 +37,15 @@ pub(super) fn further_run(first: f64) -> f64 {
     first.clamp(PER_SECOND, 10.0 * PER_SECOND)
 }
 
-/// All solves of the elastic phase together: twice the cheapest first run, and a thousand evaluations at least.
+/// All solves of the elastic phase together: twice the cheapest first run, and five hundred evaluations at least: five runs of an
+/// interior point that converge.
 pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
-    (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(1000.0 * cost)
+    (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(500.0 * cost)
 }
 
 /// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves. Half of what finding it may take.
 pub(super) fn explanation(first: f64, cost: f64) -> f64 {
-    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(500.0 * cost)
+    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(250.0 * cost)
 }
 
 /// Evaluations below which a run is not worth beginning.

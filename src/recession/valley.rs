@@ -17,6 +17,8 @@ const BACK: std::ops::Range<i32> = -6..40;
 const DECADES: i32 = 310;
 /// Halvings between a place with a value and one without.
 const BISECTIONS: usize = 60;
+/// A place within this of the point, in sizes, is the same but for rounding and what is accepted of rows.
+const BESIDE: f64 = 1e-3;
 /// Doublings between heights that are compared for endlessness: nearly a decade.
 const DECADE: usize = 3;
 
@@ -84,7 +86,12 @@ impl<'a> Valley<'a> {
     pub fn runs_off(&self, direction: &[f64]) -> Option<Fall> {
         let lead = Lead::new(&self.site, direction)?;
         let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
+        let unmoved = self.height(&start)?;
         let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
+        // Newton's steps may lead anywhere (from beside the tip of a cone): a floor above the point is none.
+        if base.rises_above(unmoved) && !self.is_beside(&here.x) {
+            return None;
+        }
         let heights = self.outwards(&lead, here.clone(), base)?;
         let decades: Vec<Height> = heights.iter().rev().step_by(DECADE).rev().copied().collect();
         if is_endless(&decades) {
@@ -93,6 +100,11 @@ impl<'a> Valley<'a> {
         let lowest = heights.iter().fold(base, |low, &height| if height.value < low.value { height } else { low });
         let falls = base.value - lowest.value > base.noise + lowest.noise;
         (falls || self.rises_back(&lead, here, base)).then_some(Fall::Settling)
+    }
+
+    /// Whether a place is where the point is, but for what its rows tolerate.
+    fn is_beside(&self, x: &[f64]) -> bool {
+        x.iter().zip(self.site.x).zip(self.site.sizes).all(|((there, here), size)| (there - here).abs() <= BESIDE * size)
     }
 
     /// The heights on the way outwards; `None` where the objective rises or a limit ends the way.

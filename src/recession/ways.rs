@@ -107,13 +107,14 @@ impl Terrain<'_> {
         Some(Ray { fall, direction, from: x.to_vec() })
     }
 
-    /// Follows the way from the start to the point, lengthened to a place where the model has no value: log(x) or −1/x at 0. What
+    /// Follows the way from the start to the point, lengthened to a place where the model has no value or a bound ends it: log(x) or
+    /// −1/x at 0. What
     /// settles there may just as well be attained: that is no ray.
     pub fn towards_edge(&self, x: &[f64]) -> Option<Ray> {
         let at = |share: f64| -> Vec<f64> { self.start.iter().zip(x).map(|(s, x)| s + share * (x - s)).collect() };
         let is_inside = |share: f64| matches!(self.place(&at(share)), Place::At(_));
         let (mut inside, mut outside) = (1.0, 1.0 + BEYOND);
-        if self.is_bounded || x == self.start || !matches!(self.place(&at(outside)), Place::Void) {
+        if self.is_bounded || x == self.start || is_inside(outside) {
             return None;
         }
         for _ in 0..BISECTIONS {

@@ -218,11 +218,7 @@ impl<'a> Kkt<'a> {
     }
 }
 
-fn factor(
-    point: &Point<'_>,
-    matrix: &mut Symmetric,
-    entries: impl Iterator<Item = f64>,
-) -> Result<Inertia, FactorizationError> {
+fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
     point.in_time()?;
     matrix.factor(entries)
 }
