@@ -110,8 +110,7 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x).ok()?;
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
         let (multipliers, found) = self.stationarity(&mut point, None, &feasibility);
-        let Certificate { row_sides: rows, bound_sides: bounds, dual_infeasibility: residual, .. } = &found;
-        let active = Active { rows, bounds, multipliers: &multipliers, residual: *residual };
+        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
         let is_feasible = found.is_feasible(&self.tolerances);
         is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
     }
@@ -225,7 +224,7 @@ impl<'a> Certifier<'a> {
         }
         self.hessian(point, &multipliers)?;
         for choice in idle_rows::choices(point, &idle, &multipliers)? {
-            let active = Active { rows, bounds, multipliers: &choice, residual: certificate.dual_infeasibility };
+            let active = Active { rows, bounds, multipliers: &choice };
             if residuals::complementarity(point, &choice, self.tolerances.optimality) > self.tolerances.optimality {
                 break;
             }
@@ -244,8 +243,7 @@ impl<'a> Certifier<'a> {
         multipliers: &Multipliers,
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
-        let (rows, bounds, residual) = (&certificate.row_sides, &certificate.bound_sides, certificate.dual_infeasibility);
-        let active = Active { rows, bounds, multipliers, residual };
+        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
         if !self.is_stationary(certificate) {
             if certificate.is_feasible(&self.tolerances) {
                 certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
@@ -368,9 +366,8 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x)?;
         let multipliers = multipliers::find(&point, None);
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let Certificate { row_sides: rows, bound_sides: bounds, dual_infeasibility: residual, .. } =
-            self.first_order(&point, &multipliers, &feasibility);
-        let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers, residual };
+        let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
+        let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
         let hessian = self.hessian(&mut point, &multipliers)?;
         Ok(second_order::by_every_test(&point, &active, &hessian))
     }

@@ -15,24 +15,10 @@ pub(in crate::certificate) struct Active<'a> {
     pub(in crate::certificate) rows: &'a [Side],
     pub(in crate::certificate) bounds: &'a [Side],
     pub(in crate::certificate) multipliers: &'a Multipliers,
-    /// The dual infeasibility they leave.
-    pub(in crate::certificate) residual: f64,
 }
 
-impl Active<'_> {
-    /// A limit whose scaled multiplier |y_i|·slope_i/σ is at most this is weakly active: a multiplier as small as CONDITION times the
-    /// residual that is left of ∂L/∂x_j cannot be told from zero, nor one that is rounding. At most what is accepted of a residual.
-    fn weak(&self) -> f64 {
-        (CONDITION * self.residual).clamp(ROUNDED, WEAK)
-    }
-}
-
-/// Accepted of a residual, relative to σ.
+/// A limit whose scaled multiplier |y_i|·slope_i/σ is at most this is weakly active: as much is accepted of ∂L/∂x_j as a residual.
 const WEAK: f64 = 1e-6;
-/// What a residual makes of multipliers where active limits are well conditioned; nearness decides beyond, see NEARLY_WEAK.
-const CONDITION: f64 = 100.0;
-/// Multipliers are differences of slopes as large as σ: rounding.
-const ROUNDED: f64 = 1e-12;
 /// At most this, and at most NEARLY_FLAT times the curvature there: nearly weakly active. Where the Lagrangian bends by a hundredth
 /// of the curvature about a limit, a slope of 1e−6 makes up to 1e−4 of a multiplier, in a chain of two 1e−3.
 const NEARLY_WEAK: f64 = 1e-3;
@@ -116,14 +102,13 @@ impl Choice {
         (variables, rows): (impl Iterator<Item = usize>, impl Iterator<Item = usize>),
     ) {
         self.clear();
-        let weak = active.weak();
         let curvature = |j: usize| hessian.map_or(0.0, |hessian| hessian.size[j]);
         for j in variables {
             let share = (active.multipliers.bounds[j] * point.sizes[j]).abs() / point.scale();
             match active.bounds[j] {
                 Side::None => self.free.push(j),
                 Side::Equal => {}
-                _ if share <= weak => self.weak_bounds.push(j),
+                _ if share <= WEAK => self.weak_bounds.push(j),
                 _ if share <= NEARLY_WEAK.min(NEARLY_FLAT * curvature(j)) => self.nearly_weak_bounds.push(j),
                 _ => {}
             }
@@ -134,7 +119,7 @@ impl Choice {
             let sharpest = || point.meta().jacobian.row(i).iter().fold(0.0, |most: f64, &j| most.max(curvature(j as usize)));
             match active.rows[i] {
                 Side::Equal => {}
-                _ if share <= weak => self.weak_rows.push(i),
+                _ if share <= WEAK => self.weak_rows.push(i),
                 _ if share <= NEARLY_WEAK && share <= NEARLY_FLAT * sharpest() => self.nearly_weak_rows.push(i),
                 _ => {}
             }

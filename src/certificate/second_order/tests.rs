@@ -99,7 +99,7 @@ fn verdicts(model: &Blocks) -> [bool; 3] {
     point.sigma = 1.0;
     let multipliers = Multipliers { rows: vec![0.0; BLOCKS], bounds: vec![0.0; 2 * BLOCKS] };
     let (rows, bounds) = (vec![Side::Equal; BLOCKS], vec![Side::None; 2 * BLOCKS]);
-    let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers, residual: 1e-8 };
+    let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers };
     let hessian = Hessian::of(&point, &multipliers).unwrap();
     let Choice { free, held, .. } = Choice::all(&point, &active);
     assert_eq!((free.len(), held.len()), (2 * BLOCKS, BLOCKS));
