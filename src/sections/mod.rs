@@ -131,6 +131,11 @@ pub trait Kind: Sync {
         &[]
     }
 
+    /// May this dimension be given as 0, which is as good as leaving it out: the root radius of an H beam?
+    fn absent(&self, _dimension: &str) -> bool {
+        false
+    }
+
     /// Is a rib's frustum volume a posynomial of the dimensions given in this form (for `superellipse`: with one fixed r)?
     fn posynomial_volume(&self, _form: &Form) -> bool {
         false
