@@ -28,7 +28,8 @@
 //!
 //! # Functions of your own
 //!
-//! [`solve`] and [`certify`] take any [`model::Model`]; [`model::closures`] makes one of Rust closures with their derivatives.
+//! [`solve`] and [`certify`] take any [`model::Model`]; [`model::closures`] makes one of Rust closures with their derivatives. [`Settings`] says
+//! what is accepted and when to give up.
 //!
 //! # The rooms, in reading order
 //!
@@ -52,11 +53,12 @@
 //! | [`structure`] | bars and beams as expressions: flexibilities, forces, axes |
 //! | [`ribs`], [`sections`] | volumes and section properties |
 //! | [`expression`] | parse, differentiate, evaluate |
-//! | [`linear_algebra`] | sparse symmetric factorisation, by a library |
+//! | [`linear_algebra`] | symmetric factorisations with inertia, patterns, partitions, null spaces, least squares with signs |
 //! | [`files`] | inputs within limits, outputs whole and never in an input's place |
 //! | [`geometry`], [`splines`], [`math`], [`mesh`] | mathematics, geometry and quad meshes |
 //!
-//! What is meant for programs is on this page, in [`model`], [`certificate`] and [`crosscheck`]'s answers. The other rooms are public for the
+//! What is meant for programs is on this page, in [`model`], [`certificate`], the kinds of [`sections`], [`backends`] (to write one) and
+//! [`crosscheck`]'s answers. The other rooms are public for the
 //! command line, tests and benchmarks, and change without notice.
 #![warn(missing_docs)]
 
@@ -96,7 +98,9 @@ pub mod sections;
 pub mod solvers;
 #[doc(hidden)]
 pub mod splines;
+#[doc(hidden)]
 pub mod structure;
 
 pub use api::{Answer, Constraint, Problem, Rib, Section, Value, certify, solve};
+pub use problem::Settings;
 pub use run::RunError as Error;
