@@ -1,5 +1,7 @@
 //! What checks by design codes state, for reports.
 
+use std::collections::BTreeSet;
+
 /// A check by a code.
 #[derive(Debug, Clone, Default)]
 pub struct Check {
@@ -23,7 +25,7 @@ pub struct CheckRow {
     /// What the short names stand for, at the first of them.
     pub names: Vec<String>,
     /// Names of ribs or sections.
-    pub items: Vec<String>,
+    pub items: BTreeSet<String>,
     /// How many rows there are.
     pub count: usize,
 }
@@ -43,8 +45,7 @@ impl Check {
         match self.rows.iter_mut().find(same) {
             Some(known) => {
                 known.count += row.count;
-                let new = row.items.into_iter().filter(|item| !known.items.contains(item)).collect::<Vec<_>>();
-                known.items.extend(new);
+                known.items.extend(row.items);
             }
             None => self.rows.push(row),
         }

@@ -4,8 +4,11 @@ use std::io::{self, Write};
 
 use serde::ser::{Serialize, SerializeSeq, Serializer};
 
-use super::text::count;
+use super::text::{count, listing};
 use crate::problem::checks::{Check, DISCLAIMER};
+
+/// Ribs or sections of a row that are named.
+const MOST_ITEMS: usize = 10;
 
 /// One line per check.
 ///
@@ -26,7 +29,7 @@ pub fn write_rows(checks: &[Check], out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "  {assumption}")?;
         }
         for row in &check.rows {
-            let of = row.items.join(", ");
+            let of = listing(row.items.iter().cloned(), MOST_ITEMS);
             writeln!(out, "  {} ({}; {of}): {}", row.clause, count(row.count, "row"), row.short)?;
             for name in &row.names {
                 writeln!(out, "      {name}")?;

@@ -4,6 +4,7 @@
 //! χ_LT by (6.56) or (6.57): at most 1 and, by the latter, at most 1/λ̄_LT²; f of 6.3.2.3 (2) is left at 1, which is safe.
 
 use super::en1993::En;
+use super::lets::plain;
 use super::{Axis, Effects, Lets, Places, Row, Where};
 
 /// Data of a check's moments.
@@ -98,7 +99,7 @@ impl En {
                             lets.name("M_z", effects.force("Mz", z, *sz));
                         }
                         let detail = format!("{}, {y}, {letter}My{about_z}, N at {n}{tag}", effects.case);
-                        rows.extend(self.joined(bending, cm, &lets, at, known, z.is_some(), (detail, y)));
+                        rows.extend(self.joined(bending, cm, &lets, at, known, (detail, y)));
                     }
                 }
             }
@@ -143,65 +144,73 @@ impl En {
         lets: &Lets,
         at: Where,
         known: Known,
-        space: bool,
         (detail, station): (String, f64),
     ) -> Vec<Row> {
+        let mut rows: Vec<Row> = Vec::new();
+        for (clause, short) in [
+            ("6.61", ["$n_y + $k_yy*$m_y <= 1", "$n_y + $k_yy*$m_y + $k_yz*$m_z <= 1"]),
+            ("6.62", ["$n_z + $k_zy*$m_y <= 1", "$n_z + $k_zy*$m_y + $k_zz*$m_z <= 1"]),
+        ] {
+            for bounds in self.bounds(bending, known, clause == "6.61") {
+                let mut lets = lets.clone();
+                bounds.name(&mut lets);
+                factors(self, bending, cm, at, known, bounds.turn, &mut lets);
+                let words = bounds.words();
+                let detail = if words.is_empty() { detail.clone() } else { format!("{detail}, {words}") };
+                rows.push(Row::new(&lets, clause, detail, short[usize::from(known.space)], Some(station)));
+            }
+        }
+        rows
+    }
+
+    /// Every set of bounds that may decide (6.61), `first`, or (6.62).
+    fn bounds(&self, bending: &Bending, known: Known, first: bool) -> Vec<Bounds> {
         let torsion = matches!(bending.ltb, Ltb::Given { .. });
         let of_axis = |axis: usize, counts: bool| match (&self.axes[axis], counts && known.stocky[axis]) {
             (Axis::Held, _) | (_, false) => vec![false],
             _ => vec![false, true],
         };
-        let mut rows: Vec<Row> = Vec::new();
-        for clause in ["6.61", "6.62"] {
-            let first = clause == "6.61";
-            let (needs_y, needs_z) = (first || !torsion, !first || space);
-            let turns: &[Option<&str>] = if first || !torsion { &[None] } else { &[Some("$lambda_z"), Some("1")] };
-            for whole_y in of_axis(0, needs_y) {
-                for whole_z in of_axis(1, needs_z) {
-                    for bound in bending.bounds(known) {
-                        for turn in turns {
-                            let mut lets = lets.clone();
-                            for (whole, name) in [(whole_y, "chi_y"), (whole_z, "chi_z")] {
-                                if whole {
-                                    lets.name(name, "1");
-                                }
-                            }
-                            if let Some(bound) = bound {
-                                lets.name("chi_LT", bound);
-                            }
-                            factors(self, bending, cm, at, known, *turn, &mut lets);
-                            let short = match (first, space) {
-                                (true, false) => "$n_y + $k_yy*$m_y <= 1",
-                                (true, true) => "$n_y + $k_yy*$m_y + $k_yz*$m_z <= 1",
-                                (false, false) => "$n_z + $k_zy*$m_y <= 1",
-                                (false, true) => "$n_z + $k_zy*$m_y + $k_zz*$m_z <= 1",
-                            };
-                            let number = if rows.iter().any(|row| row.clause == clause) { Some(()) } else { None };
-                            let detail = number.map_or(detail.clone(), |()| {
-                                format!("{detail}, {}", bounds_text(whole_y, whole_z, bound, *turn))
-                            });
-                            rows.push(Row::new(&lets, clause, detail, short, Some(station)));
-                        }
-                    }
+        let turns: &[Option<&'static str>] = if first || !torsion { &[None] } else { &[Some("$lambda_z"), Some("1")] };
+        let mut list = Vec::new();
+        for y in of_axis(0, first || !torsion) {
+            for z in of_axis(1, !first || known.space) {
+                for lateral in bending.bounds(known) {
+                    list.extend(turns.iter().map(|&turn| Bounds { whole: [y, z], lateral, turn }));
                 }
             }
         }
-        rows
+        list
     }
 }
 
-/// Which bounds a row takes, in words.
-fn bounds_text(whole_y: bool, whole_z: bool, bound: Option<&str>, turn: Option<&str>) -> String {
-    let parts = [
-        whole_y.then(|| "chi_y = 1".to_owned()),
-        whole_z.then(|| "chi_z = 1".to_owned()),
-        bound.map(|bound| format!("chi_LT = {}", super::lets::plain(bound))),
-        turn.filter(|turn| *turn == "1").map(|_| "k_zy at lambda_z = 1".to_owned()),
-    ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+/// Which of several bounds a row takes.
+struct Bounds {
+    /// χ = 1 about y and z.
+    whole: [bool; 2],
+    /// What χ_LT is, where it is not its formula.
+    lateral: Option<&'static str>,
+    /// λ̄_z of k_zy in Table B.2, or 1 beyond which it no longer counts.
+    turn: Option<&'static str>,
 }
 
-/// Utilisations n and m, and k of Tables B.1 and B.2. `turn`: λ̄_z of k_zy in Table B.2, or 1 beyond which it no longer counts.
+impl Bounds {
+    fn name(&self, lets: &mut Lets) {
+        let whole = self.whole.iter().zip(["chi_y", "chi_z"]).filter(|(whole, _)| **whole).map(|(_, name)| (name, "1"));
+        whole.chain(self.lateral.map(|bound| ("chi_LT", bound))).for_each(|(name, text)| lets.name(name, text));
+    }
+
+    fn words(&self) -> String {
+        let parts = [
+            self.whole[0].then(|| "chi_y = 1".to_owned()),
+            self.whole[1].then(|| "chi_z = 1".to_owned()),
+            self.lateral.map(|bound| format!("chi_LT = {}", plain(bound))),
+            self.turn.filter(|turn| *turn == "1").map(|_| "k_zy at lambda_z = 1".to_owned()),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Utilisations n and m, and k of Tables B.1 and B.2; `turn` as in [`Bounds`].
 fn factors(en: &En, bending: &Bending, [cy, cz, clt]: [f64; 3], at: Where, known: Known, turn: Option<&str>, lets: &mut Lets) {
     let ([w_y, w_z], gamma, a) = (bending.moduli(at.section), en.gamma, at.section);
     let elastic = bending.class == 3;

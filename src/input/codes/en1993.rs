@@ -35,7 +35,9 @@ impl En {
                 *alpha
             }
             Axis::System { alpha } => {
-                lets.name(format!("N_cr_{n}"), format!("buckling({})*$N", effects.of()));
+                // λ·|N|, smooth where the force changes its sign: of n = N/(A·fy) above 1e-3 it is 5e-7 too large.
+                let size = format!("sqrt($N^2 + (1e-6*{}.A*$fy)^2)", at.section);
+                lets.name(format!("N_cr_{n}"), format!("buckling({})*{size}", effects.of()));
                 *alpha
             }
         };

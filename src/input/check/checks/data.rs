@@ -2,8 +2,8 @@
 
 use super::super::Assembly;
 use crate::expression::parse::parse;
-use crate::input::codes::{Aisc, Axis, Bending, CURVES, En, Euler, Ltb, Made, Web};
-use crate::input::declaration::checks::{AxisEntry, CheckEntry, LengthEntry, LtbData, LtbEntry};
+use crate::input::codes::{Aisc, Axis, CURVES, En, Euler, Made, Web};
+use crate::input::declaration::checks::{AxisEntry, CheckEntry, LengthEntry, LtbEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::evaluate::{Evaluation, Item};
@@ -40,7 +40,7 @@ const MEANINGS: [(&str, &str); 13] = [
 
 impl Assembly<'_> {
     /// A key that the code cannot do without.
-    fn needed<'s, T>(&mut self, value: Option<&'s T>, key: &str, place: Place, what: &str) -> Option<&'s T> {
+    pub(super) fn needed<'s, T>(&mut self, value: Option<&'s T>, key: &str, place: Place, what: &str) -> Option<&'s T> {
         if value.is_none() {
             let meaning = MEANINGS.iter().find(|(known, _)| *known == key).map_or("", |(_, meaning)| meaning);
             self.findings.mistake(place, format!("{what} needs `{key}`"), format!("add it: {meaning}"));
@@ -49,7 +49,7 @@ impl Assembly<'_> {
     }
 
     /// A positive constant that must be there.
-    fn factor(&mut self, value: Option<&Scalar>, key: &str, place: Place, what: &str) -> Option<f64> {
+    pub(super) fn factor(&mut self, value: Option<&Scalar>, key: &str, place: Place, what: &str) -> Option<f64> {
         let scalar = self.needed(value, key, place, what)?;
         let number = self.constant(scalar)?;
         if number > 0.0 && number.is_finite() {
@@ -60,7 +60,7 @@ impl Assembly<'_> {
     }
 
     /// The text of a quantity in the ribs' names, positive where it is constant.
-    fn expression(&mut self, scalar: &Scalar, key: &str, scope: &ItemScope) -> Option<String> {
+    pub(super) fn expression(&mut self, scalar: &Scalar, key: &str, scope: &ItemScope) -> Option<String> {
         let text = match scalar {
             Scalar::Number(value, _) => value.to_string(),
             Scalar::Expression(written) => {
@@ -90,7 +90,7 @@ impl Assembly<'_> {
     }
 
     /// A word of a list.
-    fn word<T: Copy>(&mut self, written: &Written, key: &str, known: &[(&str, T)]) -> Option<T> {
+    pub(super) fn word<T: Copy>(&mut self, written: &Written, key: &str, known: &[(&str, T)]) -> Option<T> {
         if let Some((_, found)) = known.iter().find(|(word, _)| *word == written.text) {
             return Some(*found);
         }
@@ -236,70 +236,5 @@ impl Assembly<'_> {
                 None
             }
         }
-    }
-
-    /// What is checked of moments; the outer `None` after a mistake.
-    fn bending(&mut self, entry: &CheckEntry, what: &str, scope: &ItemScope, class: u8) -> Option<Option<Bending>> {
-        let ltb = match (&entry.ltb, &entry.cm) {
-            (None, None) => return Some(None),
-            (None, Some(cm)) => {
-                let message = format!("{what}: `Cm` without `ltb`");
-                let help = "add ltb = { length = …, C1 = …, curve = … }, or ltb = \"held\" where the compressed flange is held, \
-                            or the section is hollow";
-                self.findings.mistake(cm.place, message, help);
-                return None;
-            }
-            (Some(LtbEntry::Wrong), _) => return None,
-            (Some(LtbEntry::Held(_)), _) => Ltb::Held,
-            (Some(LtbEntry::Given(data)), _) => self.ltb(data, what, scope)?,
-        };
-        let Some(given) = &entry.cm else { return Some(Some(Bending { class, ltb, cm: None })) };
-        let mut factors = Vec::new();
-        for (key, scalar) in [("y", &given.y), ("z", &given.z), ("LT", &given.lt)] {
-            let Some(scalar) = scalar else {
-                let help = format!("add {key} = …: the equivalent uniform moment factor of Table B.3, 1 for a uniform moment");
-                self.findings.mistake(given.place, format!("{what}: `Cm` lacks `{key}`"), help);
-                continue;
-            };
-            let value = self.constant(scalar)?;
-            if !(0.4..=1.0).contains(&value) {
-                self.findings.mistake(scalar.place(), format!("Cm cannot be {value}"), "Table B.3 gives 0.4 to 1");
-                continue;
-            }
-            factors.push(value);
-        }
-        let cm: [f64; 3] = factors.try_into().ok()?;
-        Some(Some(Bending { class, ltb, cm: Some(cm) }))
-    }
-
-    fn ltb(&mut self, data: &LtbData, what: &str, scope: &ItemScope) -> Option<Ltb> {
-        let of = format!("`ltb` of {what}");
-        let length = self.needed(data.length.as_ref(), "length", data.place, &of);
-        let length = length.and_then(|length| self.expression(length, "length", scope));
-        let c1 = self.factor(data.c1.as_ref(), "C1", data.place, &of);
-        let curve = self.needed(data.curve.as_ref(), "curve", data.place, &of);
-        let alpha = curve.and_then(|curve| self.word(curve, "curve", &CURVES[1..]));
-        let clauses = [("6.3.2.2", false), ("6.3.2.3", true)];
-        let rolled = match &data.clause {
-            None => Some(false),
-            Some(written) => self.word(written, "clause", &clauses),
-        };
-        let plateau = match rolled {
-            Some(true) => {
-                let least = self.factor(data.lambda0.as_ref(), "lambda_LT0", data.place, &of);
-                let beta = self.factor(data.beta.as_ref(), "beta", data.place, &of);
-                [least?, beta?]
-            }
-            _ => {
-                for (key, given) in [("lambda_LT0", &data.lambda0), ("beta", &data.beta)] {
-                    if let Some(scalar) = given {
-                        let help = "add clause = \"6.3.2.3\" for rolled sections and their like, or leave it out";
-                        self.findings.mistake(scalar.place(), format!("6.3.2.2 has no `{key}`"), help);
-                    }
-                }
-                [0.2, 1.0]
-            }
-        };
-        Some(Ltb::Given { length: length?, c1: c1?, alpha: alpha?, plateau, rolled: rolled? })
     }
 }

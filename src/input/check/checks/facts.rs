@@ -1,5 +1,7 @@
 //! What rows of a check depend on besides its data, rib by rib.
 
+use std::collections::HashSet;
+
 use super::super::Assembly;
 use super::data::Code;
 use super::{Effects, Known, Places, Row, Where};
@@ -87,21 +89,20 @@ impl Code {
 }
 
 impl Assembly<'_> {
-    pub(super) fn facts(&mut self, code: &Code, scope: &ItemScope, rib: u32, case: u32) -> Facts {
+    pub(super) fn facts(&mut self, code: &Code, rib: u32, case: u32, loaded: &HashSet<u32>) -> Facts {
         let structure = self.problem.structure.clone().unwrap_or_default();
         let own = ItemScope::of(&self.problem, Collection::Ribs, vec![rib]);
         let (from, to) = (self.problem.ribs.from[rib as usize], self.problem.ribs.to[rib as usize]);
         let member = structure.member(rib).unwrap_or_default();
-        let of_forces = ["N", "My", "Mz"].iter().any(|word| self.problem.ribs.names.iter().any(|name| name == *word));
+        let of_forces = ["N", "My", "Mz"].iter().any(|word| self.names.ribs.find(&self.problem.ribs.names, word).is_some());
         let name = self.problem.item_name(Collection::Ribs, rib).to_owned();
         let (slender, stocky) = self.slenderness(code, &own, rib);
-        let _ = scope;
         Facts {
             case: structure.load_set_name(case).to_owned(),
             rib: of_forces.then_some(name),
             tapered: from != to,
             bends: structure.members.get(member as usize).is_some_and(|member| !member.pinned),
-            loaded: is_loaded(&structure, member, case),
+            loaded: loaded.contains(&member),
             space: structure.plane == Plane::Space,
             open: self.kind_at(rib) == "h-beam",
             slender,
@@ -187,6 +188,15 @@ impl Assembly<'_> {
                         which is safe but no rule of the code; cut the rib into uniform ones, or use length = \"system\"";
             self.findings.warning(place, message, help);
         }
+        let planar = self.problem.structure.as_deref().is_some_and(|structure| structure.plane != Plane::Space);
+        if let (true, Code::En { en, .. }) = (planar, code)
+            && matches!(en.axes[1], Axis::System { .. })
+        {
+            let message =
+                format!("{what}: a plane structure's factor knows nothing of buckling out of its plane, which is about z");
+            self.findings.mistake(place, message, "give z a length, or \"held\"");
+            return false;
+        }
         let kinds: Vec<&str> = scope.members.iter().map(|&rib| self.kind_at(rib)).collect();
         let stranger = |known: &[&str]| kinds.iter().copied().find(|kind| !known.contains(kind));
         if let Some(kind) = stranger(&DOUBLY_SYMMETRIC) {
@@ -217,22 +227,21 @@ impl Assembly<'_> {
     }
 }
 
-/// Whether something acts on the member's span in one of the cases of a load set.
-fn is_loaded(structure: &Structure, member: u32, set: u32) -> bool {
+/// The members on whose spans something acts in one of the cases of a load set.
+pub(super) fn loaded(structure: &Structure, set: u32) -> HashSet<u32> {
     let first = structure.cases.len() as u32;
     let combination = set.checked_sub(first).and_then(|at| structure.combinations.get(at as usize));
     let counts = |case: u32| match combination {
         None => case == set,
         Some(combination) => combination.factors.iter().any(|(one, factor)| *one == case && *factor != 0.0),
     };
-    structure.loads.iter().filter(|load| counts(load.case)).any(|load| match load.action {
-        Action::Distributed { member: on, .. } | Action::Point { member: on, .. } | Action::SelfWeight { member: on } => {
-            on == member
-        }
+    let spans = structure.loads.iter().filter(|load| counts(load.case)).filter_map(|load| match load.action {
+        Action::Distributed { member, .. } | Action::Point { member, .. } | Action::SelfWeight { member } => Some(member),
         Action::Nodal { .. }
         | Action::Displacement { .. }
         | Action::Temperature { .. }
         | Action::Gradient { .. }
-        | Action::Pretension { .. } => false,
-    })
+        | Action::Pretension { .. } => None,
+    });
+    spans.collect()
 }

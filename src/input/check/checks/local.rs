@@ -1,5 +1,7 @@
 //! Local buckling: limits of width over thickness of every section concerned, once each.
 
+use std::collections::HashSet;
+
 use super::super::Assembly;
 use super::Row;
 use super::data::Code;
@@ -28,13 +30,14 @@ impl Assembly<'_> {
             self.findings.warning(entry.place, message, help);
         }
         // By section and strength: the rows of Table 5.2 hold for all ribs alike.
-        let mut list: Vec<(u32, String, Row)> = Vec::new();
+        let mut known: HashSet<(u32, String)> = HashSet::new();
+        let mut list: Vec<(u32, Row)> = Vec::new();
         for &rib in &scope.members {
             let Some(strength) = self.strength(fy, scope, rib) else { return };
             let Some(parts) = self.parts(entry, code, strength, rib, check) else { continue };
             for section in [self.problem.ribs.from[rib as usize], self.problem.ribs.to[rib as usize]] {
                 for (clause, require) in &parts {
-                    if !list.iter().any(|(known, text, _)| *known == section && text == require) {
+                    if known.insert((section, require.clone())) {
                         let row = Row {
                             clause: clause.clone(),
                             detail: String::new(),
@@ -43,12 +46,12 @@ impl Assembly<'_> {
                             station: None,
                             names: Vec::new(),
                         };
-                        list.push((section, require.clone(), row));
+                        list.push((section, row));
                     }
                 }
             }
         }
-        for (section, _, row) in list {
+        for (section, row) in list {
             let items = ItemScope::of(&self.problem, Collection::Sections, vec![section]);
             self.push_row(entry, row, &items, Scope::Sections(vec![section]), check);
         }

@@ -3,6 +3,7 @@
 mod data;
 mod facts;
 mod local;
+mod moments;
 
 use std::collections::HashMap;
 
@@ -19,7 +20,7 @@ use crate::problem::nearest::did_you_mean;
 use crate::problem::resolve::{ItemScope, Report, Resolver, Stage};
 use crate::problem::{Constraint, Formula, Scope};
 use data::{CODES, Code};
-use facts::Facts;
+use facts::{Facts, loaded};
 
 /// A row's name, detail, short text, text and station.
 type Key = (String, String, String, String, Option<u64>);
@@ -36,8 +37,8 @@ impl Assembly<'_> {
     fn check(&mut self, entry: &CheckEntry, name: String) {
         let what = format!("check `{name}`");
         let Some(scope) = self.ribs_checked(entry, &what) else { return };
-        let Some(code) = self.code(entry, &what, &scope) else { return };
-        let Some(cases) = self.cases_checked(entry, &what) else { return };
+        let (code, cases) = (self.code(entry, &what, &scope), self.cases_checked(entry, &what));
+        let (Some(code), Some(cases)) = (code, cases) else { return };
         if !self.findings.clean() || !self.suits(entry, &code, &scope, &what) {
             return;
         }
@@ -99,8 +100,9 @@ impl Assembly<'_> {
     /// Rows of all ribs under a case: those of ribs of which the same is known are the same.
     fn case_rows(&mut self, entry: &CheckEntry, code: &Code, scope: &ItemScope, case: u32, check: &mut Check) {
         let mut groups: Vec<(Facts, Vec<u32>)> = Vec::new();
+        let on_spans = self.problem.structure.as_deref().map(|structure| loaded(structure, case)).unwrap_or_default();
         for &rib in &scope.members {
-            let facts = self.facts(code, scope, rib, case);
+            let facts = self.facts(code, rib, case, &on_spans);
             match groups.iter_mut().find(|(known, _)| *known == facts) {
                 Some((_, ribs)) => ribs.push(rib),
                 None => groups.push((facts, vec![rib])),
