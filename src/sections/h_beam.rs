@@ -139,13 +139,7 @@ impl Kind for HBeam {
                 let (iy, width) = (shape.iy(graph), graph.binary(Binary::Max, shape.tw, shape.b));
                 symmetric_modulus(graph, iy, width)
             }
-            "J" => match &shape.fillets {
-                Some(fillets) => fillets.torsion(graph, &shape),
-                None => {
-                    let tf = shape.tf(graph);
-                    torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)])
-                }
-            },
+            "J" => torsion_constant(graph, &shape),
             "Asx" => monomial(graph, 5.0 / 6.0, &[(shape.b, 1.0), (shape.t, 1.0)]),
             "Asy" => {
                 let tf = graph.scale(0.5, shape.t);
@@ -267,6 +261,15 @@ impl Kind for HBeam {
         };
         halves(form, given, outline).map(drawn).into_iter().collect()
     }
+}
+
+/// Of thin walls, or with the fillets.
+fn torsion_constant(graph: &mut Graph, shape: &Shape) -> NodeId {
+    let Some(fillets) = &shape.fillets else {
+        let tf = shape.tf(graph);
+        return torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)]);
+    };
+    fillets.torsion(graph, shape)
 }
 
 /// Half lengths and the root radius at numeric dimensions.
