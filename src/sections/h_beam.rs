@@ -265,11 +265,11 @@ impl Kind for HBeam {
 
 /// Of thin walls, or with the fillets.
 fn torsion_constant(graph: &mut Graph, shape: &Shape) -> NodeId {
-    let Some(fillets) = &shape.fillets else {
-        let tf = shape.tf(graph);
-        return torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)]);
-    };
-    fillets.torsion(graph, shape)
+    let tf = shape.tf(graph);
+    match &shape.fillets {
+        Some(fillets) => fillets.torsion(graph, [shape.b, tf], [shape.hw, shape.tw]),
+        None => torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)]),
+    }
 }
 
 /// Half lengths and the root radius at numeric dimensions.

@@ -3,7 +3,6 @@
 //! N ≤ χ·A·fy/γM1 (6.47), χ = 1/(Φ + √(Φ² − λ̄²)) ≤ 1, Φ = ½·[1 + α·(λ̄ − 0.2) + λ̄²] (6.49), λ̄ = √(A·fy/N_cr) (6.50). The formula for χ has
 //! a value for every λ̄ ≥ 0 and passes 1 at 0.2: with N ≤ A·fy/γM1 beside it the bound χ ≤ 1 has no corner.
 
-use super::bending::Bending;
 use super::{AXES, Axis, Effects, Lets, Places, Row, Where};
 
 /// Imperfection factors of Table 6.1 (flexural buckling) and Table 6.3 (lateral-torsional buckling: a to d).
@@ -17,8 +16,6 @@ pub(in crate::input) struct En {
     pub gamma: f64,
     /// Buckling about y and z.
     pub axes: [Axis; 2],
-    /// Moments, where they are checked.
-    pub bending: Option<Bending>,
 }
 
 impl En {

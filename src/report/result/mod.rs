@@ -108,7 +108,9 @@ impl Tail<'_> {
         map.serialize_entry("direction", &outcome.direction.as_ref().map(|x| NamedValues { findings, x }))?;
         map.serialize_entry("runaway", &names(&outcome.runaway, |j| findings.model.variable_name(j)))?;
         map.serialize_entry("minima", &MinimaPart(findings))?;
-        map.serialize_entry("checks", &Said(&findings.about.checks))?;
+        if !findings.about.checks.is_empty() {
+            map.serialize_entry("checks", &Said(&findings.about.checks))?;
+        }
         map.serialize_entry("warnings", &findings.about.warnings)?;
         map.serialize_entry("mistakes", &[(); 0])
     }

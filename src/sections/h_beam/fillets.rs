@@ -6,7 +6,6 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use super::super::build::monomial;
-use super::shape::Shape;
 use crate::expression::graph::{Graph, NodeId};
 
 const AREA: f64 = 1.0 - FRAC_PI_4;
@@ -50,12 +49,12 @@ impl Fillets {
     /// J = 2/3·(b − 0.63·tf)·tf³ + hw·tw³/3 + 2·α·D⁴, D = ((r + tw/2)² + (r + tf)² − r²)/(2r + tf) the circle inscribed where web and flange
     /// meet, α = (0.145 + 0.1·r/tf)·tw/tf (El Darwish and Johnston, *Torsion of structural shapes*, J. Struct. Div. ASCE 91, 1965): what
     /// tables of rolled profiles print.
-    pub fn torsion(&self, graph: &mut Graph, shape: &Shape) -> NodeId {
-        let (r, tw, tf) = (self.r, shape.tw, shape.tf(graph));
+    pub fn torsion(&self, graph: &mut Graph, [b, tf]: [NodeId; 2], [hw, tw]: [NodeId; 2]) -> NodeId {
+        let r = self.r;
         let flanges = [
-            monomial(graph, 2.0 / 3.0, &[(shape.b, 1.0), (tf, 3.0)]),
+            monomial(graph, 2.0 / 3.0, &[(b, 1.0), (tf, 3.0)]),
             monomial(graph, -0.42, &[(tf, 4.0)]),
-            monomial(graph, 1.0 / 3.0, &[(shape.hw, 1.0), (tw, 3.0)]),
+            monomial(graph, 1.0 / 3.0, &[(hw, 1.0), (tw, 3.0)]),
         ];
         let half_web = graph.scale(0.5, tw);
         let (beside, above) = (graph.add(r, half_web), graph.add(r, tf));

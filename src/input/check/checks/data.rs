@@ -2,7 +2,7 @@
 
 use super::super::Assembly;
 use crate::expression::parse::parse;
-use crate::input::codes::{Aisc, Axis, CURVES, En, Euler, Made, Web};
+use crate::input::codes::{Aisc, Axis, Bending, CURVES, En, Euler, Made, Web};
 use crate::input::declaration::checks::{AxisEntry, CheckEntry, LengthEntry, LtbEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
@@ -13,7 +13,7 @@ use crate::problem::resolve::{ItemScope, Stage};
 /// A check's data by its code.
 pub(super) enum Code {
     Euler(Euler),
-    En { en: En, class: u8, web: Option<Web>, fy: Scalar, unit: f64 },
+    En { en: En, bending: Option<Bending>, class: u8, web: Option<Web>, fy: Scalar, unit: f64 },
     Aisc { aisc: Aisc, made: Made, fy: Scalar },
 }
 
@@ -174,8 +174,8 @@ impl Assembly<'_> {
         let bending = self.bending(entry, what, scope, class.unwrap_or(3));
         let fy = self.needed(entry.fy.as_ref(), "fy", entry.place, what).cloned();
         let text = self.expression(fy.as_ref()?, "fy", scope);
-        let en = En { fy: text?, gamma: gamma?, axes: axes?, bending: bending? };
-        Some(Code::En { en, class: class?, web, fy: fy?, unit: unit? })
+        let en = En { fy: text?, gamma: gamma?, axes: axes? };
+        Some(Code::En { en, bending: bending?, class: class?, web, fy: fy?, unit: unit? })
     }
 
     fn class(&mut self, scalar: &Scalar) -> Option<u8> {

@@ -6,7 +6,7 @@ use super::super::Assembly;
 use super::data::Code;
 use super::{Effects, Known, Places, Row, Where};
 use crate::expression::ast::Collection;
-use crate::input::codes::{AXES, Axis, En, JOIN, Ltb};
+use crate::input::codes::{AXES, Axis, Bending, En, JOIN, Ltb};
 use crate::input::declaration::checks::CheckEntry;
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::range::Ranges;
@@ -53,9 +53,9 @@ impl Facts {
             match code {
                 Code::Euler(euler) => rows.extend(euler.rows(&effects, &places, at, tag)),
                 Code::Aisc { aisc, .. } => rows.extend(aisc.rows(&effects, &places, at, self.slender, tag)),
-                Code::En { en, .. } => {
+                Code::En { en, bending, .. } => {
                     rows.extend(en.rows(&effects, &places, at, tag));
-                    if let Some(bending) = en.bending.as_ref().filter(|_| self.bends) {
+                    if let Some(bending) = bending.as_ref().filter(|_| self.bends) {
                         rows.extend(en.moment_rows(bending, &effects, &places, at, known, tag));
                     }
                 }
@@ -71,9 +71,9 @@ impl Code {
         match self {
             Code::Euler(_) => "N ≤ π²EI/L² about both axes".into(),
             Code::Aisc { .. } => "E3 (flexural buckling), Table B4.1a".into(),
-            Code::En { en, class, .. } => {
+            Code::En { bending, class, .. } => {
                 let mut list = vec!["6.3.1".to_owned()];
-                if let Some(bending) = &en.bending {
+                if let Some(bending) = bending {
                     list.extend(match bending.ltb {
                         Ltb::Held => None,
                         Ltb::Given { rolled: true, .. } => Some("6.3.2.3".to_owned()),
@@ -130,7 +130,7 @@ impl Assembly<'_> {
                 });
                 (beyond, [true; 3])
             }
-            Code::En { en, .. } => {
+            Code::En { en, bending, .. } => {
                 let slender = [0, 1].map(|axis| match &en.axes[axis] {
                     Axis::Length { .. } => {
                         let text = en.lets(&effects, 0.0, at).whole(&format!("$lambda_{}", AXES[axis].0));
@@ -138,7 +138,7 @@ impl Assembly<'_> {
                     }
                     _ => false,
                 });
-                (slender, self.stocky(en, own, rib))
+                (slender, self.stocky(en, bending.as_ref(), own, rib))
             }
         }
     }
@@ -149,7 +149,7 @@ impl Assembly<'_> {
     }
 
     /// Whether λ̄_y, λ̄_z, λ̄_LT may lie below their plateaus somewhere within the bounds. A radius of gyration is at most half the extent.
-    fn stocky(&mut self, en: &En, own: &ItemScope, rib: u32) -> [bool; 3] {
+    fn stocky(&mut self, en: &En, bending: Option<&Bending>, own: &ItemScope, rib: u32) -> [bool; 3] {
         let square = |length: &str, extent: &str| format!("4*({})*({length})^2/(pi^2*material.E*{extent}^2)", en.fy);
         let mut least = |text: String, plateau: f64| {
             let formula = self.quietly(&text, own);
@@ -164,7 +164,7 @@ impl Assembly<'_> {
             _ => true,
         };
         let (y, z) = (of_axis(0, "height"), of_axis(1, "width"));
-        let lateral = match en.bending.as_ref().map(|bending| (&bending.ltb, bending)) {
+        let lateral = match bending.map(|bending| (&bending.ltb, bending)) {
             Some((Ltb::Given { plateau: [plateau, _], .. }, bending)) => ["from", "to"].iter().any(|end| {
                 let mut lets = en.lets(&Effects { case: String::new(), rib: None }, 0.0, Where { section: end, critical: end });
                 bending.lateral(Where { section: end, critical: end }, &mut lets);
@@ -203,7 +203,7 @@ impl Assembly<'_> {
             let message = format!("{what}: sections of kind {kind} may twist as they buckle, which is not checked");
             self.findings.warning(place, message, "only buckling about the section's own axes x and y is");
         }
-        let bending = if let Code::En { en, .. } = code { en.bending.as_ref() } else { None };
+        let bending = if let Code::En { bending, .. } = code { bending.as_ref() } else { None };
         let Some(bending) = bending else { return true };
         if let (Ltb::Given { .. }, Some(kind)) = (&bending.ltb, stranger(&["h-beam"])) {
             let message = format!("{what}: M_cr is known for doubly symmetric H beams, not for kind {kind}");
