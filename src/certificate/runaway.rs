@@ -50,7 +50,7 @@ pub(super) fn find(
         return Runaway::default();
     }
     let choice = Choice::all(point, active);
-    let directions = directions(point, hessian, &choice);
+    let directions = directions(point, hessian, &choice, dependent);
     let found = if choice.free.len() + choice.held.len() <= LARGEST {
         // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
         // variable that seems to rest on its bound.
@@ -142,7 +142,7 @@ fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
 
 /// Flat directions, each as it is and its variables that move most one by one; then the ways that have led here, from the start
 /// and from zero.
-fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<f64>> {
+fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: bool) -> Vec<Vec<f64>> {
     let meta = point.meta();
     let is_open = |&j: &usize| meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY;
     let (mut found, mut axes) = (Vec::new(), Vec::new());
@@ -161,10 +161,11 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
             found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
             found.push(point.x.to_vec());
         }
-        // A variable far from where it comes from may follow a row that only seems to hold it.
+        // Of limits that depend on one another, a row may only seem to hold a variable far from where it comes from.
         let start = |j: usize| meta.start[j];
         let is_far = |j: &usize| (point.x[*j] - start(*j)).abs() > FAR * recession::size(start(*j));
-        axes.extend(free.iter().copied().filter(is_open).filter(is_far).take(OUTWARDS));
+        let followed = if dependent { OUTWARDS } else { 0 };
+        axes.extend(free.iter().copied().filter(is_open).filter(is_far).take(followed));
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));
