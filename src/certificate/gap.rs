@@ -11,8 +11,6 @@ use crate::model::Model;
 const ROUNDINGS: f64 = 1e3 * f64::EPSILON;
 /// Roundings of a row's terms or of a limit.
 const ROUNDED: f64 = 32.0 * f64::EPSILON;
-/// Rows one after the other that pass rounding on: kinks inside kinks.
-const CHAIN: usize = 4;
 /// On half the way to the limits the objective falls by half the gap; by more than this times that where the slope grows on the
 /// way. (A power p < 1 of the distance falls by (1 − 2^−p)/(p/2) times as much: 1.17 for a square root, 1.05 for p = 0.85.)
 const HONEST: f64 = 1.05;
@@ -25,14 +23,9 @@ pub(super) fn beyond_the_slope(point: &Point<'_>, multipliers: &Multipliers) -> 
         return None;
     }
     let rows = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0);
-    let last_digits = last_digits(point, multipliers);
-    let term = |i: usize| {
-        let entries = point.meta().jacobian.range(i);
-        let passed_on = entries.map(|at| point.jacobian[at].abs() * last_digits[point.meta().jacobian.columns[at] as usize]);
-        passed_on.fold(point.row_term(i), f64::max)
-    };
-    let in_rows: f64 = rows.map(|(i, &y)| y.abs() * distance(point.rows[i], point.row_limit(i, y), term(i))).sum();
+    let in_rows: f64 = rows.map(|(i, &y)| y.abs() * distance(point.rows[i], point.row_limit(i, y), point.row_term(i))).sum();
     let bounds = multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0);
+    let last_digits = last_digits(point, multipliers);
     let in_bounds: f64 = bounds.map(|(j, &z)| z.abs() * distance(point.x[j], point.bound(j, z), last_digits[j])).sum();
     let gap = in_rows + in_bounds;
     if !(gap > ROUNDINGS * point.objective.abs() && gap.is_finite()) {
@@ -49,17 +42,15 @@ pub(super) fn beyond_the_slope(point: &Point<'_>, multipliers: &Multipliers) -> 
     (gain > HONEST * 0.5 * gap + ROUNDINGS * magnitude).then(|| 2.0 * gain / magnitude)
 }
 
-/// Variable by variable the magnitude whose rounding it takes over from the rows that hold it, and these from other variables: the
-/// terms of a row over its slope. t ≥ 1 + x at x = −1 leaves t at the last digits of 1, not at 0, and so does u ≥ t leave u.
+/// Variable by variable the magnitude whose rounding it takes over from the rows that hold it: the terms of a row over its slope.
+/// t ≥ 1 + x at x = −1 leaves t at the last digits of 1, not at 0.
 fn last_digits(point: &Point<'_>, multipliers: &Multipliers) -> Vec<f64> {
     let (pattern, mut digits) = (&point.meta().jacobian, vec![0.0f64; point.x.len()]);
-    for _ in 0..CHAIN {
-        for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
-            let entries = || pattern.range(i).map(|at| (pattern.columns[at] as usize, point.jacobian[at].abs()));
-            let passed_on = entries().map(|(j, slope)| slope * digits[j]).fold(0.0, f64::max);
-            let limit = Some(point.row_limit(i, y).abs()).filter(|limit| limit.is_finite()).unwrap_or(0.0);
-            let magnitude = limit.max(point.row_term(i)).max(passed_on);
-            entries().filter(|entry| entry.1 > 0.0).for_each(|(j, slope)| digits[j] = digits[j].max(magnitude / slope));
+    for (i, &y) in multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0) {
+        let magnitude = point.row_limit(i, y).abs().max(point.row_term(i));
+        for at in pattern.range(i).filter(|&at| point.jacobian[at] != 0.0) {
+            let j = pattern.columns[at] as usize;
+            digits[j] = digits[j].max(magnitude / point.jacobian[at].abs());
         }
     }
     digits

@@ -86,12 +86,7 @@ impl<'a> Valley<'a> {
     pub fn runs_off(&self, direction: &[f64]) -> Option<Fall> {
         let lead = Lead::new(&self.site, direction)?;
         let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
-        let unmoved = self.height(&start)?;
         let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
-        // Newton's steps may lead anywhere (from beside the tip of a cone): a floor above the point is none.
-        if base.rises_above(unmoved) && !self.is_beside(&here.x) {
-            return None;
-        }
         let heights = self.outwards(&lead, here.clone(), base)?;
         let decades: Vec<Height> = heights.iter().rev().step_by(DECADE).rev().copied().collect();
         if is_endless(&decades) {
@@ -100,6 +95,19 @@ impl<'a> Valley<'a> {
         let lowest = heights.iter().fold(base, |low, &height| if height.value < low.value { height } else { low });
         let falls = base.value - lowest.value > base.noise + lowest.noise;
         (falls || self.rises_back(&lead, here, base)).then_some(Fall::Settling)
+    }
+
+    /// Whether the floor lies at the point or below it. From a point that is not stationary Newton's steps may lead anywhere (from
+    /// beside the tip of a cone): a floor above the point is none.
+    pub fn begins_here(&self, direction: &[f64]) -> bool {
+        let begins = || {
+            let lead = Lead::new(&self.site, direction)?;
+            let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
+            let unmoved = self.height(&start)?;
+            let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
+            Some(!base.rises_above(unmoved) || self.is_beside(&here.x))
+        };
+        begins().unwrap_or(false)
     }
 
     /// Whether a place is where the point is, but for what its rows tolerate.
