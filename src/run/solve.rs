@@ -98,9 +98,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
     let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, &remaining, request.interrupt));
-    if let Some(settled) = &settled {
-        outcome = settled.outcome.clone();
-    }
+    outcome = settled.as_ref().map_or(outcome, |settled| settled.outcome.clone());
     bound_below(subject, &mut outcome, &remaining, request.interrupt);
     strongest::explain(subject, &mut outcome, &remaining);
     let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);

@@ -1,7 +1,7 @@
 //! Bars that have vanished: the structure without them, solved and judged anew.
 
 use super::Subject;
-use crate::certificate::{Certificate, Scope, Side};
+use crate::certificate::{Certificate, Extent, Side};
 use crate::crosscheck::{Outcome, Status};
 use crate::model::Meta;
 use crate::model::remainder::remainder;
@@ -46,7 +46,7 @@ pub(super) fn settle(
         return None;
     }
     // What is proved of the rest is not proved of designs with these bars.
-    (found.scope, found.lower_bound) = (Scope::Local, None);
+    (found.scope, found.lower_bound) = (Extent::Local, None);
     found.message = format!("{remark}. Of the structure without them: {}", found.message);
     let bounds = (subject.shown().meta(), rest.shown().meta());
     let judged = found.answers.iter_mut().filter_map(|answer| answer.certificate.as_mut()).chain(found.certificate.as_mut());

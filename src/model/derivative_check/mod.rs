@@ -4,6 +4,8 @@
 
 mod along;
 mod apart;
+#[cfg(test)]
+mod tests;
 
 use std::collections::HashMap;
 
@@ -17,7 +19,7 @@ const MOST_VARIABLES: usize = 400;
 /// Directions times entries of everything: each direction costs some forty evaluations, and a check is to take seconds at any size.
 const WORK: usize = 8_000_000;
 
-/// Components looked at, of a model that falls apart.
+/// Components looked at, of a model that decomposes.
 const MOST_COMPONENTS: usize = 100;
 
 /// Relative disagreement that counts as a wrong derivative.
@@ -71,7 +73,7 @@ pub fn derivative_check(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck,
     }
 }
 
-/// Of a large model that falls apart an even selection of components is looked at, each by itself: differences of the whole
+/// Of a large model that decomposes an even selection of components is looked at, each by itself: differences of the whole
 /// would cost as much as its size for every variable.
 fn check_components(components: &dyn Components, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
     let partition = components.partition();
