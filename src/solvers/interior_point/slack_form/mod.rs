@@ -77,7 +77,8 @@ impl<'a> SlackForm<'a> {
             rows.iter().map(|&i| (meta.row_lower[i] != meta.row_upper[i]).then(|| inequalities.next()).flatten()).collect();
         // A state's own start may be next to nothing by chance.
         let is_state = |j: usize| meta.states.is_some_and(|states| j >= states.first_variable);
-        let magnitude = |j: usize| if is_state(j) && meta.typical[j] > 0.0 { meta.typical[j] } else { magnitudes[j] };
+        let typical = |j: usize| meta.typical.get(j).copied().filter(|size| is_state(j) && *size > 0.0);
+        let magnitude = |j: usize| typical(j).unwrap_or(magnitudes[j]);
         let variable_scale: Vec<f64> =
             free.iter().map(|&j| scaling::variable_scale(magnitude(j), meta.lower[j], meta.upper[j])).collect();
         let (jacobian, jacobian_entries) = select_jacobian(&meta.jacobian, &rows, &free, meta.variables());
