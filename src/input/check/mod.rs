@@ -1,5 +1,6 @@
 //! From the file as declared to the checked problem: names looked up, numbers computed, sizes compared.
 
+mod checks;
 mod constants;
 mod constraints;
 mod data;
@@ -65,6 +66,8 @@ pub(super) struct Assembly<'a> {
     choice: spread::Choice,
     /// What a table could not give.
     without: Without,
+    /// Whether the text at hand was written by a check: the user cannot do anything about what it hides or states in vain.
+    quiet: bool,
 }
 
 /// What tables could not give: what is missing for that reason is no further mistake.
@@ -105,6 +108,7 @@ pub(super) fn check(
     assembly.links(&declared.definitions);
     assembly.objective(&declared);
     assembly.constraints(&declared.constraints);
+    assembly.checks(&declared.checks);
     assembly.check_existence();
     assembly.say_unused();
     assembly.say_unused_cases();
@@ -149,6 +153,7 @@ impl<'a> Assembly<'a> {
             building: structure::Building::default(),
             choice: spread::Choice::default(),
             without: Without::default(),
+            quiet: false,
         }
     }
 
