@@ -31,7 +31,7 @@ impl<'r, 'o> Ledger<'r, 'o> {
     pub(super) fn run(&mut self, k: usize, start: &[f64], allowed: f64) -> Answer {
         let (session, solver) = (self.session, self.solvers[k]);
         let multipliers = if self.attempts[k] == 0 { session.task.start_multipliers } else { None };
-        let budget = session.budget(solver, session.working_model(), allowed);
+        let budget = session.budget(solver, session.task.model_for(solver.backend), allowed);
         self.attempts[k] += 1;
         let mut observer: Box<dyn FnMut(&Iteration<'_>) + '_> = (self.observers)(k, solver.algorithm);
         let mut answer = session.attempt(solver, start, multipliers, budget, &mut observer);

@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::Subject;
+use super::remaining::Remaining;
 use super::unobserved::unobserved;
 use crate::backends::argmin::Argmin;
 use crate::certificate::Extent;
@@ -14,11 +15,11 @@ use crate::run::Choice;
 const AGREEMENT: f64 = 1e-6;
 
 /// Puts the bound beside a certified minimum, and says so where it reaches it; proves a contradiction where even free forces cannot meet the limits.
-pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: Option<&AtomicBool>) {
+pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, remaining: &Remaining, interrupt: Option<&AtomicBool>) {
     if outcome.scope == Extent::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
         return;
     }
-    let Some(relaxed) = relaxed(subject, interrupt) else { return };
+    let Some(relaxed) = relaxed(subject, remaining, interrupt) else { return };
     match outcome.status {
         Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
             outcome.scope = Extent::Global;
@@ -43,15 +44,17 @@ fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     }
 }
 
-/// The run with free forces; `None` where it would say nothing of the structure.
-fn relaxed(subject: &Subject, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
+/// The run with free forces; `None` where it would say nothing of the structure, or no time is left.
+fn relaxed(subject: &Subject, remaining: &Remaining, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
+    remaining.settings(&subject.settings)?;
     let relaxed = relaxation(subject.problem()).ok()??;
     let model = relaxed.model.model();
+    let settings = remaining.settings(&subject.settings)?;
     let task = Task {
         model,
         substitution: relaxed.substitution.as_deref().map(|other| other as _),
         class: relaxed.class,
-        settings: &subject.settings,
+        settings: &settings,
         start: &model.meta().start,
         start_multipliers: None,
         starts: 1,

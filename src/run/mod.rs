@@ -14,6 +14,7 @@ mod pictures;
 mod place;
 mod plausible;
 mod present;
+mod remaining;
 mod results;
 pub mod section;
 pub mod sizes;

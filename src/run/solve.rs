@@ -9,6 +9,7 @@ use super::courses::courses;
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
+use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
 use super::vanished::settle;
@@ -80,8 +81,9 @@ impl Solved {
 /// Before anything is solved: a folder that cannot be used, no backend that takes the problem. Files that cannot be written
 /// afterwards are told by [`Solved::unwritten`].
 pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
+    let remaining = Remaining::new();
     subject.refuse_mechanism()?;
-    refuse_if_none_accepts(&request.choices, subject.model())?;
+    refuse_if_none_accepts(&request.choices, &subject.task(&subject.model().meta().start, None))?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings);
     let default = default_folder(Path::new(&about.file));
@@ -95,12 +97,10 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, request.interrupt));
-    if let Some(settled) = &settled {
-        outcome = settled.outcome.clone();
-    }
-    bound_below(subject, &mut outcome, request.interrupt);
-    strongest::explain(subject, &mut outcome);
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, &remaining, request.interrupt));
+    outcome = settled.as_ref().map_or(outcome, |settled| settled.outcome.clone());
+    bound_below(subject, &mut outcome, &remaining, request.interrupt);
+    strongest::explain(subject, &mut outcome, &remaining);
     let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
@@ -145,21 +145,30 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
 /// # Errors
 /// No backend takes the problem.
 pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
+    let remaining = Remaining::new();
     let choices = choose(&[], None, &subject.settings)?;
-    refuse_if_none_accepts(&choices, subject.model())?;
-    let start = subject.model().meta().start.clone();
-    let outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, None));
+    let task = subject.task(&subject.model().meta().start, None);
+    refuse_if_none_accepts(&choices, &task)?;
+    let outcome = present(subject, unobserved(&task, &choices));
+    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, &remaining, None));
     let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
-    bound_below(subject, &mut outcome, None);
-    strongest::explain(subject, &mut outcome);
+    bound_below(subject, &mut outcome, &remaining, None);
+    strongest::explain(subject, &mut outcome, &remaining);
     Ok(outcome)
 }
 
-/// One start of every backend from a point of the user's variables.
-fn nearby(subject: &Subject, x: &[f64], choices: &[Choice], interrupt: Option<&AtomicBool>) -> Outcome {
+/// One start of every backend from a point of the user's variables; `None` where no time is left for it.
+fn nearby(
+    subject: &Subject,
+    x: &[f64],
+    choices: &[Choice],
+    remaining: &Remaining,
+    interrupt: Option<&AtomicBool>,
+) -> Option<Outcome> {
+    let settings = remaining.settings(&subject.settings)?;
     let start = subject.completed(x.to_vec());
-    present(subject, unobserved(&subject.task(&start, interrupt), choices))
+    let task = Task { settings: &settings, ..subject.task(&start, interrupt) };
+    Some(present(subject, unobserved(&task, choices)))
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {
