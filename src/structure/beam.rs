@@ -1,6 +1,7 @@
 //! A straight member, prismatic or with linearly varying dimensions, as expression graphs: basic forces from deformations.
 
 mod bending;
+mod piece;
 mod section;
 
 use super::algebra::Algebra;
@@ -9,6 +10,7 @@ use super::quadrature;
 use crate::expression::graph::{Graph, NodeId};
 use crate::sections;
 pub use bending::Bending;
+pub use piece::Piece;
 pub use section::Tapered;
 
 /// Which of the basic forces N, Mz_i, Mz_j, My_i, My_j, T a member can carry; the others are released.

@@ -48,6 +48,26 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - before) / (x * x - 1.0))
 }
 
+/// Weights that integrate from 0 to each point of a rule: row k has ∫₀^{x_k} ℓ_j for the Lagrange polynomials ℓ_j through the points,
+/// exact for polynomials of a degree below their number.
+///
+/// ```
+/// use ribopt::structure::quadrature::{cumulative, gauss};
+/// let rule = gauss(4);
+/// for (&(x, _), row) in rule.iter().zip(cumulative(&rule)) {
+///     let integral: f64 = row.iter().zip(&rule).map(|(q, (at, _))| q * at * at).sum();
+///     assert!((integral - x.powi(3) / 3.0).abs() < 1e-15);
+/// }
+/// ```
+pub fn cumulative(rule: &[(f64, f64)]) -> Vec<Vec<f64>> {
+    let lagrange = |j: usize, at: f64| -> f64 {
+        let others = rule.iter().enumerate().filter(|(k, _)| *k != j);
+        others.map(|(_, &(x, _))| (at - x) / (rule[j].0 - x)).product()
+    };
+    let integral = |upper: f64, j: usize| -> f64 { rule.iter().map(|&(x, w)| upper * w * lagrange(j, upper * x)).sum() };
+    rule.iter().map(|&(upper, _)| (0..rule.len()).map(|j| integral(upper, j)).collect()).collect()
+}
+
 /// Points and weights on [0, 1] cut at `breaks` (ascending, inside).
 pub fn pieces(breaks: &[f64], tapered: bool) -> Vec<(f64, f64)> {
     static RULES: OnceLock<[Vec<(f64, f64)>; 2]> = OnceLock::new();

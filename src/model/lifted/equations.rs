@@ -6,6 +6,7 @@ use super::{Known, Numbering, with_inputs};
 use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::modes::Eigenvalue;
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
@@ -13,10 +14,16 @@ use crate::structure::algebra::Numbers;
 use crate::structure::deformation::{BASIC, support_rows};
 
 /// The user's problem over design variables and inputs: basic forces of members known by them, in every case and combination.
-pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
+pub(super) fn rows_problem(
+    problem: &Problem,
+    structure: &Structure,
+    statics: &Statics,
+    eigenvalues: Vec<Eigenvalue>,
+) -> Problem {
     let mut inner = problem.clone();
-    with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize);
+    with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize + eigenvalues.len());
     inner.inputs_are_forces = true;
+    inner.eigenvalues = eigenvalues;
     inner
 }
 

@@ -1,0 +1,126 @@
+//! Eigenvalues of the structure that a problem asks for: buckling factors and natural frequencies.
+
+use std::sync::Arc;
+
+use super::formula::{Response, What};
+use super::{Formula, Problem};
+
+/// The matrices whose eigenvalues are asked for: K φ = −λ G φ of a case or combination, or K φ = ω² M φ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Pencil {
+    /// Linear buckling under a case or combination.
+    Buckling(u32),
+    /// Free vibration.
+    Vibration,
+}
+
+/// An eigenvalue, as the model computes one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Eigenvalue {
+    /// By its number, counted from the lowest, 1 the first.
+    Number(Pencil, u32),
+    /// By a cut of the problem's.
+    Cut(u32),
+}
+
+/// A limit from below on several eigenvalues that coincide or nearly do, seen in one direction.
+///
+/// S = K − σ·B with B = −G or M, and σ the limit, is to be positive semidefinite but for the modes below those limited. With the columns C = K₀·V of
+/// a basis V of the nearly coinciding modes at a reference design, and a direction v among them, the smallest wᵀSw over Cᵀw = v is vᵀ·T·v with
+/// the Schur complement T of S: smooth however many eigenvalues coincide, and S has the wanted inertia where T is positive semidefinite
+/// (Haynsworth 1968). Each direction v is one smooth row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cut {
+    /// Whose eigenvalues.
+    pub pencil: Pencil,
+    /// The limit on the factor, or on the frequency in cycles per time.
+    pub limit: f64,
+    /// C, by column.
+    pub basis: Arc<Vec<Vec<f64>>>,
+    /// v, of length 1.
+    pub direction: Vec<f64>,
+}
+
+impl Pencil {
+    /// The response that is its eigenvalue of this number.
+    pub fn response(self, number: u32) -> Response {
+        let (set, what) = match self {
+            Pencil::Buckling(set) => (set, What::Buckling(number)),
+            Pencil::Vibration => (0, What::Frequency(number)),
+        };
+        Response { set, subject: super::formula::Subject::Whole, what }
+    }
+
+    /// The eigenvalue that users know, from μ of B φ = μ K φ: 1/μ as a factor, 1/(2π√μ) as a frequency.
+    pub fn shown(self, mu: f64) -> f64 {
+        match self {
+            Pencil::Buckling(_) => 1.0 / mu,
+            Pencil::Vibration => 1.0 / (std::f64::consts::TAU * mu.sqrt()),
+        }
+    }
+
+    /// μ of a factor or frequency.
+    pub fn inverse(self, shown: f64) -> f64 {
+        match self {
+            Pencil::Buckling(_) => 1.0 / shown,
+            Pencil::Vibration => (std::f64::consts::TAU * shown).powi(-2),
+        }
+    }
+
+    /// The first and second derivative of [`Pencil::shown`].
+    pub fn slopes(self, mu: f64) -> [f64; 2] {
+        let value = self.shown(mu);
+        match self {
+            Pencil::Buckling(_) => [-value / mu, 2.0 * value / (mu * mu)],
+            Pencil::Vibration => [-0.5 * value / mu, 0.75 * value / (mu * mu)],
+        }
+    }
+}
+
+impl Response {
+    /// The eigenvalue it is, where it is one.
+    pub fn eigenvalue(&self) -> Option<Eigenvalue> {
+        match self.what {
+            What::Buckling(number) => Some(Eigenvalue::Number(Pencil::Buckling(self.set), number)),
+            What::Frequency(number) => Some(Eigenvalue::Number(Pencil::Vibration, number)),
+            What::Cut(cut) => Some(Eigenvalue::Cut(cut)),
+            _ => None,
+        }
+    }
+}
+
+/// The eigenvalues that objective and rows ask for, each once.
+pub fn eigenvalues(problem: &Problem) -> Vec<Eigenvalue> {
+    let mut walk = Walk { problem, seen: vec![false; problem.definitions.len()], found: Vec::new() };
+    walk.visit(&problem.objective);
+    for constraint in &problem.constraints {
+        walk.visit(&constraint.left);
+        constraint.right.formulas().for_each(|formula| walk.visit(formula));
+    }
+    problem.dimension_formulas.iter().for_each(|formula| walk.visit(formula));
+    walk.found
+}
+
+struct Walk<'a> {
+    problem: &'a Problem,
+    seen: Vec<bool>,
+    found: Vec<Eigenvalue>,
+}
+
+impl Walk<'_> {
+    fn visit(&mut self, formula: &Formula) {
+        match formula {
+            Formula::Response(response) => {
+                if let Some(eigenvalue) = response.eigenvalue().filter(|one| !self.found.contains(one)) {
+                    self.found.push(eigenvalue);
+                }
+            }
+            Formula::Definition(definition) => {
+                if !std::mem::replace(&mut self.seen[*definition as usize], true) {
+                    self.visit(&self.problem.definitions[*definition as usize].1);
+                }
+            }
+            other => other.children().for_each(|one| self.visit(one)),
+        }
+    }
+}
