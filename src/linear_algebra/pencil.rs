@@ -5,6 +5,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
 
 use super::FactorizationError;
+use super::bunch_kaufman::{self, Pivot};
 
 /// A dense symmetric matrix by rows, both triangles filled.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,15 @@ impl Symmetric {
     pub fn times(&self, vector: &[f64]) -> Vec<f64> {
         let dot = |row: &[f64]| row.iter().zip(vector).map(|(a, b)| a * b).sum();
         self.values.chunks(self.order.max(1)).map(dot).collect()
+    }
+
+    /// Number of negative eigenvalues, by the pivots of one factorisation (Bunch and Kaufman 1977).
+    pub fn negative_eigenvalues(&self) -> usize {
+        let scales: Vec<f64> = self.scales();
+        let scaled = |(at, value): (usize, &f64)| scales[at / self.order] * value * scales[at % self.order];
+        let mut matrix: Vec<f64> = self.values.iter().enumerate().map(scaled).collect();
+        let mut pivots = vec![Pivot::default(); self.order];
+        bunch_kaufman::factor(&mut matrix, &mut pivots).negative
     }
 
     /// diag^(−1/2); 1 where the diagonal is not positive. Displacements and rotations come in different units.

@@ -12,12 +12,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 pub use super::states::States;
 use super::stiffness::{Factors, Mechanism, Stiffness};
-use super::views::composed::Composed;
+use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
 use super::with_states::WithStates;
 use super::{AssemblyError, Evaluation, EvaluationError, Meta, Model, NameTable, Own, RibModel, assemble, auxiliaries};
+use crate::linear_algebra::pencil::Spectrum;
 use crate::problem::kinks::Auxiliary;
-use crate::problem::modes::eigenvalues;
+use crate::problem::modes::{Pencil, eigenvalues};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use crate::problem::{Origin, Problem};
@@ -83,6 +84,7 @@ impl Lifted {
             links.constants.push(0.0);
         }
         let first = WithModes::new(Mapped::new(forces, maps, of_forces), modes, own_rows);
+        let meta = Meta { row_is_linear: linear_rows(&meta, rows.meta(), &links), ..meta };
         let model = Composed::new(first, rows, links, own_rows + count, meta);
         let stiffness = Stiffness::of(model.first().first().meta(), states);
         let problem = Arc::clone(problem);
@@ -141,10 +143,46 @@ impl Lifted {
         self.stiffness.residual(self.model.first().first(), z)
     }
 
+    /// All modes of a pencil at design and displacements, the lowest first: μ of B φ = μ K φ, and φ.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or none of this pencil's eigenvalues is asked for.
+    pub fn spectrum(&self, z: &[f64], pencil: Pencil) -> Result<Spectrum, EvaluationError> {
+        self.modes()?.spectrum(z, pencil)
+    }
+
+    /// K·φ of modes.
+    ///
+    /// # Errors
+    /// As [`Lifted::spectrum`].
+    pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
+        self.modes()?.stiffness_times(z, pencil, vectors)
+    }
+
+    /// How many modes have a factor or frequency below this: the negative eigenvalues of one matrix.
+    ///
+    /// # Errors
+    /// As [`Lifted::spectrum`].
+    pub fn modes_below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
+        self.modes()?.below(z, pencil, limit)
+    }
+
+    fn modes(&self) -> Result<&Modes, EvaluationError> {
+        let none = || EvaluationError::Invalid { term: "modes of the structure".into(), cause: "none is asked for".into() };
+        self.model.first().modes().ok_or_else(none)
+    }
+
     /// The model of the user's rows, over design variables and inputs.
     pub fn inner(&self) -> &RibModel {
         self.model.second()
     }
+}
+
+/// Rows that are affine in design and displacements: those affine in inputs that are.
+fn linear_rows(meta: &Meta, inner: &Meta, links: &Links) -> Vec<bool> {
+    let is_affine = |&input: &u32| links.rows.row(input as usize).is_empty();
+    let affine = |row: usize| row >= inner.rows() || inner.jacobian.row(row).iter().all(is_affine);
+    (0..meta.rows()).map(|row| meta.is_row_linear(row) && affine(row)).collect()
 }
 
 /// The structure and what was prepared of it.

@@ -5,6 +5,7 @@ pub(super) mod responses;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::refinement::{self, Lowest};
 use super::{RunError, Subject};
 use crate::model::{Assembled, AssemblyError, EvaluationError, assemble_any};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
@@ -24,6 +25,8 @@ pub struct Analysis {
     pub variables: Vec<String>,
     /// What the structure does, by case and combination.
     pub cases: Vec<CaseResponses>,
+    /// The lowest buckling factors and frequencies.
+    pub modes: Vec<Lowest>,
     /// The point that was analysed, by variable.
     pub x: Vec<f64>,
     /// What is odd about it, in sentences.
@@ -86,6 +89,7 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         analysis.cases = responses.by_case(&x)?;
         analysis.equilibrium_residual = responses.residual(&x)?;
     }
+    analysis.modes = refinement::all(problem, &x);
     analysis.x = x;
     Ok(analysis)
 }

@@ -5,10 +5,12 @@ use std::sync::atomic::AtomicBool;
 
 use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
+use super::coinciding;
 use super::courses::courses;
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
+use super::refinement;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
 use super::vanished::settle;
@@ -50,6 +52,8 @@ pub struct Solved {
     pub utilisation: Option<utilisation::Table>,
     /// Why files could not be written: the answer is to be shown first.
     pub unwritten: Option<RunError>,
+    /// The problem that the point was judged in, where that is not the user's: without vanished bars, or with coinciding modes.
+    judged: Option<Subject>,
     place: PathBuf,
     _locked: Folder,
 }
@@ -57,6 +61,7 @@ pub struct Solved {
 impl Solved {
     /// What reports speak of.
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
+        let subject = self.judged.as_ref().unwrap_or(subject);
         Findings {
             about: &self.about,
             model: subject.shown(),
@@ -95,13 +100,16 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, request.interrupt));
+    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, &request.choices, request.interrupt);
+    let settled = coinciding::settle(subject, &outcome, again).or_else(|| settle(subject, &outcome, again));
     if let Some(settled) = &settled {
         outcome = settled.outcome.clone();
     }
     bound_below(subject, &mut outcome, request.interrupt);
     strongest::explain(subject, &mut outcome);
-    let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);
+    about.warnings.extend(refinement::remarks(subject, &outcome.x));
+    let judged = settled.map(|settled| settled.subject);
+    let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
@@ -137,7 +145,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         }
         Ok(())
     });
-    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
+    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), judged, place, _locked: locked, about })
 }
 
 /// Solves without leaving files: every backend of the settings, or all that are built in.
@@ -149,7 +157,8 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
     refuse_if_none_accepts(&choices, subject.model())?;
     let start = subject.model().meta().start.clone();
     let outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, None));
+    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, &choices, None);
+    let settled = coinciding::settle(subject, &outcome, again).or_else(|| settle(subject, &outcome, again));
     let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
     bound_below(subject, &mut outcome, None);
     strongest::explain(subject, &mut outcome);

@@ -14,12 +14,7 @@ use crate::structure::algebra::Numbers;
 use crate::structure::deformation::{BASIC, support_rows};
 
 /// The user's problem over design variables and inputs: basic forces of members known by them, in every case and combination.
-pub(super) fn rows_problem(
-    problem: &Problem,
-    structure: &Structure,
-    statics: &Statics,
-    eigenvalues: Vec<Eigenvalue>,
-) -> Problem {
+pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics, eigenvalues: Vec<Eigenvalue>) -> Problem {
     let mut inner = problem.clone();
     with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize + eigenvalues.len());
     inner.inputs_are_forces = true;

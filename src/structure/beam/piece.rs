@@ -54,8 +54,7 @@ impl Piece<'_, '_> {
         self.with_beam(graph, &breaks, |graph, beam| {
             let (points, segments) = stations(beam);
             let [start, width] = [self.range[0], self.range[1] - self.range[0]];
-            let forces: Vec<NodeId> =
-                points.iter().map(|(x, _)| self.whole.force(graph, Force::N, start + width * x)).collect();
+            let forces: Vec<NodeId> = points.iter().map(|(x, _)| self.whole.force(graph, Force::N, start + width * x)).collect();
             let mut squares = vec![Vec::new(); points.len()];
             for plane in self.planes() {
                 let chord = self.chord(graph, plane, beam.length);

@@ -279,7 +279,11 @@ fn piece_end(
         let has = prepared.inner_directions();
         let each = has.into_iter().filter(|&has| has).count();
         let place = has[..direction].iter().filter(|&&has| has).count();
-        return if has[direction] { vec![(directions.inner[member] + (number as usize - 1) * each + place, 1.0)] } else { Vec::new() };
+        return if has[direction] {
+            vec![(directions.inner[member] + (number as usize - 1) * each + place, 1.0)]
+        } else {
+            Vec::new()
+        };
     }
     let node = if end == 0 { declared.start } else { declared.end };
     if !prepared.fixed {

@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// against the other is no curvature of a smooth function, and is left out. [`Cut`]s are smooth there.
 const COINCIDENT: f64 = 1e-6;
 
+/// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
+const NEVER: f64 = 1e30;
+
 /// The eigenvalues that a problem asks for.
 pub(super) struct Modes {
     energies: Energies,
@@ -83,6 +86,12 @@ impl Modes {
         spectrum(&k, &b).map_err(|_| failed("the structure is a mechanism: a motion meets no resistance"))
     }
 
+    /// Eigenvalues below a limit: the negative pivots of K − B/μ there (Sylvester's law of inertia).
+    pub fn below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
+        let matrix = self.energies.matrix(z, pencil, 1.0, -1.0 / pencil.inverse(limit))?;
+        Ok(matrix.negative_eigenvalues())
+    }
+
     /// K·v at design and displacements.
     pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
         let k = self.energies.matrix(z, pencil, 1.0, 0.0)?;
@@ -114,13 +123,13 @@ impl Solved<'_> {
         Ok(&self.spectra[at].1)
     }
 
-    /// The values asked for, as users know them; infinite where so many modes do not buckle.
+    /// The values asked for, as users know them; [`NEVER`] where so many modes do not buckle.
     fn values(&mut self) -> Result<Vec<f64>, EvaluationError> {
         let modes = self.modes;
         let value = |one: &Eigenvalue| match *one {
             Eigenvalue::Number(pencil, number) => {
                 let mu = self.spectrum(pencil)?.values.get(number as usize - 1).copied().unwrap_or(0.0);
-                Ok(if mu > 0.0 { pencil.shown(mu) } else { f64::INFINITY })
+                Ok(if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER })
             }
             Eigenvalue::Cut(cut) => {
                 let cut = &modes.cuts[cut as usize];
@@ -171,13 +180,14 @@ impl Solved<'_> {
         for (share, mixed) in shares.iter_mut().zip(&mixed).filter(|(_, mixed)| !mixed.is_empty()) {
             *share = apart.iter().map(|(_, vector)| dot(vector, mixed)).collect();
         }
-        let weighted = |a: &[f64], b: &[f64]| -> f64 {
-            a.iter().zip(b).zip(&apart).map(|((a, b), (other, _))| a * b / (mu - other)).sum()
-        };
-        let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !shares[z].is_empty()).collect();
+        let weighted =
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(&apart).map(|((a, b), (other, _))| a * b / (mu - other)).sum() };
+        let active: Vec<usize> =
+            (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !shares[z].is_empty()).collect();
         for (at, &i) in active.iter().enumerate() {
             for &j in &active[..=at] {
-                let turned = if shares[i].is_empty() || shares[j].is_empty() { 0.0 } else { 2.0 * weighted(&shares[i], &shares[j]) };
+                let turned =
+                    if shares[i].is_empty() || shares[j].is_empty() { 0.0 } else { 2.0 * weighted(&shares[i], &shares[j]) };
                 curvature.push((i, j, turned - slope[i] * stiffness[j] - slope[j] * stiffness[i]));
             }
         }

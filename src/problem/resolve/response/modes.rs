@@ -18,7 +18,11 @@ impl<'a> Resolver<'a, '_> {
         let number = match (arguments.list.pop_front(), pencil) {
             (None, Pencil::Buckling(_)) => 1.0,
             (None, Pencil::Vibration) => {
-                return self.mistake(arguments.span, "`frequency` needs the number of a mode", Some(format!("as in {}", shape(name))));
+                return self.mistake(
+                    arguments.span,
+                    "`frequency` needs the number of a mode",
+                    Some(format!("as in {}", shape(name))),
+                );
             }
             (Some(next), _) => match self.scalar(next.ast)? {
                 Formula::Constant(number) if number >= 1.0 && number <= MOST && number.fract() == 0.0 => number,
