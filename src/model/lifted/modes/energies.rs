@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use super::super::maps::{Linear, settlements};
 use super::super::{Numbering, with_inputs};
+use super::directions::{Directions, map_inputs, mode_directions};
 use crate::linear_algebra::pencil::Symmetric;
 use crate::model::views::mapped::{Mapped, Maps};
 use crate::model::{AssemblyError, EvaluationError, Meta, Model, RibModel, assemble};
@@ -16,8 +16,6 @@ use crate::problem::modes::Pencil;
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
-use crate::structure::algebra::Numbers;
-use crate::structure::deformation::{along, turning};
 
 /// The energies of a structure in a mode.
 pub(super) struct Energies {
@@ -27,9 +25,12 @@ pub(super) struct Energies {
     /// Cases and combinations, in the order of their rows.
     sets: Vec<u32>,
     /// Springs and masses at nodes: what they add to the diagonals of K and M.
-    springs: Vec<(usize, f64)>,
-    masses: Vec<(usize, f64)>,
+    springs: Diagonal,
+    masses: Diagonal,
 }
+
+/// Entries on a diagonal.
+type Diagonal = Vec<(usize, f64)>;
 
 /// Derivatives of the energies at a mode.
 pub(super) struct Derivatives {
@@ -50,31 +51,12 @@ impl Energies {
         numbering: &Numbering,
         pencils: &[Pencil],
     ) -> Result<Self, AssemblyError> {
-        let mut sets: Vec<u32> =
-            pencils.iter().filter_map(|pencil| if let Pencil::Buckling(set) = pencil { Some(*set) } else { None }).collect();
-        sets.sort_unstable();
-        sets.dedup();
-        let mut inner =
-            Problem { constraints: Vec::new(), objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
-        let inputs = structure.load_sets() * statics.inputs as usize + 12 * statics.pieces as usize;
-        with_inputs(&mut inner, inputs);
+        let sets = buckling_sets(pencils);
         let kinds: Vec<(Energy, u32)> = std::iter::once((Energy::Strain, 0))
             .chain(sets.iter().map(|&set| (Energy::Prestress, set)))
             .chain(pencils.contains(&Pencil::Vibration).then_some((Energy::Inertia, 0)))
             .collect();
-        let most = statics.members.iter().map(|member| member.pieces).max().unwrap_or(0);
-        let mut row_of = Vec::new();
-        for (row, &(energy, set)) in kinds.iter().enumerate() {
-            for piece in 0..most {
-                let weighs = |material: u32| structure.materials[material as usize].density.is_some();
-                let has = structure.members.iter().zip(&statics.members).filter(|(declared, member)| {
-                    member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material))
-                });
-                let ribs: Vec<u32> = has.map(|(member, _)| member.rib).collect();
-                row_of.extend(std::iter::repeat_n(row, ribs.len()));
-                inner.constraints.push(energy_row(energy, set, piece, ribs));
-            }
-        }
+        let (inner, row_of) = energies_problem(problem, structure, statics, &kinds);
         let inner = assemble(&Arc::new(inner))?;
         let mut maps = Maps::default();
         let directions = mode_directions(structure, statics, numbering);
@@ -95,13 +77,7 @@ impl Energies {
             ..Meta::default()
         };
         let model = Mapped::new(inner, maps, meta);
-        let at_node = |node: u32, direction: usize| directions.of_node(node, direction);
-        let springs = structure.supports.iter().flat_map(|support| {
-            (0..6).filter_map(move |direction| Some((at_node(support.node, direction)?, support.springs[direction])))
-        });
-        let springs = springs.filter(|(_, stiffness)| *stiffness != 0.0).collect();
-        let masses = structure.masses.iter();
-        let masses = masses.flat_map(|&(node, mass)| (0..3).filter_map(move |axis| Some((at_node(node, axis)?, mass)))).collect();
+        let (springs, masses) = at_nodes(structure, &directions);
         Ok(Energies { model, before, sets, springs, masses })
     }
 
@@ -192,6 +168,53 @@ impl Energies {
     }
 }
 
+/// The cases and combinations whose axial forces count.
+fn buckling_sets(pencils: &[Pencil]) -> Vec<u32> {
+    let set = |pencil: &Pencil| if let Pencil::Buckling(set) = pencil { Some(*set) } else { None };
+    let mut sets: Vec<u32> = pencils.iter().filter_map(set).collect();
+    sets.sort_unstable();
+    sets.dedup();
+    sets
+}
+
+/// One row per piece and kind of energy, and which kind each is.
+fn energies_problem(
+    problem: &Problem,
+    structure: &Structure,
+    statics: &Statics,
+    kinds: &[(Energy, u32)],
+) -> (Problem, Vec<usize>) {
+    let mut inner =
+        Problem { constraints: Vec::new(), objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
+    with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize + 12 * statics.pieces as usize);
+    let most = statics.members.iter().map(|member| member.pieces).max().unwrap_or(0);
+    let weighs = |material: u32| structure.materials[material as usize].density.is_some();
+    let mut row_of = Vec::new();
+    for (row, &(energy, set)) in kinds.iter().enumerate() {
+        for piece in 0..most {
+            let has =
+                structure.members.iter().zip(&statics.members).filter(|(declared, member)| {
+                    member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material))
+                });
+            let ribs: Vec<u32> = has.map(|(member, _)| member.rib).collect();
+            row_of.extend(std::iter::repeat_n(row, ribs.len()));
+            inner.constraints.push(energy_row(energy, set, piece, ribs));
+        }
+    }
+    (inner, row_of)
+}
+
+/// What springs and masses at nodes add to the diagonals of K and M, by direction of a mode.
+fn at_nodes(structure: &Structure, directions: &Directions) -> (Diagonal, Diagonal) {
+    let at_node = |node: u32, direction: usize| directions.of_node(node, direction);
+    let springs = structure.supports.iter().flat_map(|support| {
+        (0..6).filter_map(move |direction| Some((at_node(support.node, direction)?, support.springs[direction])))
+    });
+    let masses = structure.masses.iter();
+    let masses = masses.flat_map(|&(node, mass)| (0..3).filter_map(move |axis| Some((at_node(node, axis)?, mass))));
+    (springs.filter(|(_, stiffness)| *stiffness != 0.0).collect(), masses.collect())
+}
+
 fn energy_row(energy: Energy, set: u32, piece: u32, ribs: Vec<u32>) -> Constraint {
     Constraint {
         name: "energy".into(),
@@ -202,98 +225,4 @@ fn energy_row(energy: Energy, set: u32, piece: u32, ribs: Vec<u32>) -> Constrain
         left: Formula::Response(Arc::new(Response { set, subject: Subject::Own, what: What::Modal(energy, piece) })),
         right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
     }
-}
-
-/// Where the directions of a mode stand in w.
-struct Directions<'a> {
-    numbering: &'a Numbering,
-    /// The first of each member's inner nodes.
-    inner: Vec<usize>,
-    count: usize,
-}
-
-impl Directions<'_> {
-    fn of_node(&self, node: u32, direction: usize) -> Option<usize> {
-        self.numbering.of.get(&(node, direction as u8)).map(|&at| at as usize)
-    }
-}
-
-fn mode_directions<'a>(structure: &Structure, statics: &Statics, numbering: &'a Numbering) -> Directions<'a> {
-    let mut count = numbering.of.len();
-    let mut inner = Vec::with_capacity(structure.members.len());
-    for member in &statics.members {
-        inner.push(count);
-        let of_each = member.inner_directions().into_iter().filter(|&has| has).count();
-        count += member.pieces.saturating_sub(1) as usize * of_each;
-    }
-    Directions { numbering, inner, count }
-}
-
-/// Design variables as they are, what members deform by in the cases asked for, and the ends of every piece in a mode.
-fn map_inputs(
-    structure: &Structure,
-    statics: &Statics,
-    numbering: &Numbering,
-    sets: &[u32],
-    directions: &Directions,
-    before: usize,
-    maps: &mut Maps,
-) {
-    for j in 0..numbering.states.first_variable as u32 {
-        maps.inputs.push([(j, 1.0)]);
-        maps.constants.push(0.0);
-    }
-    let linear = Linear { structure, statics, numbering, settled: settlements(structure) };
-    for set in 0..structure.load_sets() as u32 {
-        let factors = if sets.contains(&set) { structure.factors(set) } else { Vec::new() };
-        for at in 0..statics.inputs {
-            let (entries, constant) = linear.of(&factors, statics.input(at));
-            maps.inputs.push(entries);
-            maps.constants.push(constant);
-        }
-    }
-    for member in 0..structure.members.len() {
-        for piece in 0..statics.members[member].pieces {
-            for at in 0..12 {
-                let entries = piece_end(structure, statics, directions, member, piece, at);
-                maps.inputs.push(entries.into_iter().map(|(state, factor)| ((before + state) as u32, factor)));
-                maps.constants.push(0.0);
-            }
-        }
-    }
-}
-
-/// What a displacement of a piece's end is in those of a mode: 0 to 5 at its start, then at its end.
-fn piece_end(
-    structure: &Structure,
-    statics: &Statics,
-    directions: &Directions,
-    member: usize,
-    piece: u32,
-    at: usize,
-) -> Vec<(usize, f64)> {
-    let (declared, prepared) = (&structure.members[member], &statics.members[member]);
-    let (end, direction) = (at / 6, at % 6);
-    let number = piece + end as u32;
-    if number > 0 && number < prepared.pieces {
-        let has = prepared.inner_directions();
-        let each = has.into_iter().filter(|&has| has).count();
-        let place = has[..direction].iter().filter(|&&has| has).count();
-        return if has[direction] {
-            vec![(directions.inner[member] + (number as usize - 1) * each + place, 1.0)]
-        } else {
-            Vec::new()
-        };
-    }
-    let node = if end == 0 { declared.start } else { declared.end };
-    if !prepared.fixed {
-        return directions.of_node(node, direction).map(|state| (state, 1.0)).into_iter().collect();
-    }
-    let axis = prepared.frame.axes[direction % 3];
-    let row = match direction < 3 {
-        true => along(&mut Numbers, end, axis, declared.offset[end]),
-        false => turning(&mut Numbers, end, axis),
-    };
-    let global = row[6 * end..6 * end + 6].iter().enumerate().filter(|(_, factor)| **factor != 0.0);
-    global.filter_map(|(direction, &factor)| Some((directions.of_node(node, direction)?, factor))).collect()
 }

@@ -5,6 +5,7 @@
 //! (Nelson 1976; Haug, Choi and Komkov, *Design Sensitivity Analysis of Structural Systems*, 1986). Displacements are among the z: through
 //! them the prestress changes with the design.
 
+mod directions;
 mod energies;
 mod with_modes;
 
