@@ -28,7 +28,8 @@
 //!
 //! # Functions of your own
 //!
-//! [`solve`] and [`certify`] take any [`model::Model`]; [`model::closures`] makes one of Rust closures with their derivatives.
+//! [`solve`] and [`certify`] take any [`model::Model`]; [`model::closures`] makes one of Rust closures with their derivatives. [`Settings`] says
+//! what is accepted and when to give up.
 //!
 //! # The rooms, in reading order
 //!
@@ -39,25 +40,25 @@
 //! | room | what happens there |
 //! |---|---|
 //! | [`api`] | problems put together in Rust, answers by name |
-//! | [`run`] | one run, start to finish |
-//! | [`input`] | the TOML file and its CSV tables become a checked [`problem::Problem`] |
-//! | [`log`], [`report`] | iteration CSV; tables, JSON, terminal |
+//! | `run` | one run, start to finish |
+//! | `input` | the TOML file and its CSV tables become a checked `problem::Problem` |
+//! | `log`, `report` | iteration CSV; tables, JSON, terminal |
 //! | [`crosscheck`] | several backends, one verdict |
 //! | [`backends`] | NLopt and argmin behind one trait |
 //! | [`certificate`] | the proof at a point, by code that knows no solver |
-//! | [`recession`] | does the objective fall for ever? |
-//! | [`solvers`] | our own interior points and augmented Lagrangian |
+//! | `recession` | does the objective fall for ever? |
+//! | `solvers` | our own interior points and augmented Lagrangian |
 //! | [`model`] | objective, rows and their exact sparse derivatives; views |
-//! | [`problem`] | the checked declaration; knows no TOML |
-//! | [`structure`] | bars and beams as expressions: flexibilities, forces, axes |
-//! | [`ribs`], [`sections`] | volumes and section properties |
-//! | [`expression`] | parse, differentiate, evaluate |
-//! | [`linear_algebra`] | sparse symmetric factorisation, by a library |
-//! | [`files`] | inputs within limits, outputs whole and never in an input's place |
-//! | [`geometry`], [`splines`], [`math`], [`mesh`] | mathematics, geometry and quad meshes |
+//! | `problem` | the checked declaration; knows no TOML |
+//! | `structure` | bars and beams as expressions: flexibilities, forces, axes |
+//! | `ribs`, [`sections`] | volumes and section properties |
+//! | `expression` | parse, differentiate, evaluate |
+//! | `linear_algebra` | symmetric factorisations with inertia, patterns, partitions, null spaces, least squares with signs |
+//! | `files` | inputs within limits, outputs whole and never in an input's place |
+//! | `geometry`, `splines`, `math`, `mesh` | mathematics, geometry and quad meshes |
 //!
-//! What is meant for programs is on this page, in [`model`], [`certificate`] and [`crosscheck`]'s answers. The other rooms are public for the
-//! command line, tests and benchmarks, and change without notice.
+//! What is meant for programs is on this page, in [`model`], [`certificate`], the kinds of [`sections`], [`backends`] (to write one) and
+//! [`crosscheck`]'s answers. The other rooms are public for the command line, tests and benchmarks, and change without notice.
 #![warn(missing_docs)]
 
 pub mod api;
@@ -96,7 +97,9 @@ pub mod sections;
 pub mod solvers;
 #[doc(hidden)]
 pub mod splines;
+#[doc(hidden)]
 pub mod structure;
 
 pub use api::{Answer, Constraint, Problem, Rib, Section, Value, certify, solve};
+pub use problem::Settings;
 pub use run::RunError as Error;

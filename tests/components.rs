@@ -1,4 +1,4 @@
-//! Networks that fall apart: solved piece by piece they end where the whole does, whatever the number of threads.
+//! Networks that decompose: solved component by component they end where the whole does, whatever the number of threads.
 
 use std::fmt::Write;
 use std::fs;
@@ -90,7 +90,7 @@ fn solve_from(model: &dyn Model, start: &[f64], start_multipliers: Option<&[f64]
 fn the_joined_solution_is_certified_and_equals_that_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let model = network(60, false, folder.path());
-    // Between its own bounds it is the same model, but does not tell that it falls apart.
+    // Between its own bounds it is the same model, but does not tell that it decomposes.
     let joined = WithBounds::new(&model, model.meta().lower.clone(), model.meta().upper.clone());
     let (apart, whole) = (solve(&model), solve(&joined));
     assert!(apart.message.contains("60 independent components"), "{}", apart.message);

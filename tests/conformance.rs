@@ -3,7 +3,7 @@
 mod support;
 
 use rayon::prelude::*;
-use ribopt::certificate::Scope;
+use ribopt::certificate::Extent;
 use ribopt::crosscheck::Status;
 use ribopt::problem::Settings;
 use ribopt::run::choice::{all, built_in};
@@ -70,7 +70,7 @@ fn algorithms_on(path: &std::path::Path) -> Vec<String> {
         let excess = outcome.objective.unwrap_or(f64::NAN) - best;
         let near = excess.abs() <= CERTIFIED_ACCURACY * best.abs();
         // Another local minimum is worse, and not claimed to be global.
-        let local = excess > 0.0 && outcome.scope == Scope::Local;
+        let local = excess > 0.0 && outcome.scope == Extent::Local;
         let wrong = outcome.status == Status::Certified && !near && !local;
         wrong.then(|| format!("{}, {}: {excess:e} above {best}\n{}", name(path), choice.algorithm, diagnosis(&outcome)))
     };

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ribopt::certificate::Scope;
+use ribopt::certificate::Extent;
 use ribopt::crosscheck::{Outcome, Status};
 use ribopt::model::{Class, Model, assemble_any};
 use ribopt::run::Subject;
@@ -53,7 +53,7 @@ fn a_bar_that_carries_nothing_vanishes_and_the_rest_is_proved_best() {
     let limit = "[[constraints]]\nname = \"stress\"\nfor = \"ribs\"\nrequire = \"-2e5 <= stress(P) <= 2e5\"\n";
     for area in ["{ lower = 0, start = 1e-3 }", "{ lower = 1e-12, upper = 1, start = 1e-3 }"] {
         let (_, found) = solved("vanishing", &three_bars(area, &format!("{SIDEWAYS}{limit}")));
-        assert_eq!((found.status, found.scope), (Status::Certified, Scope::Global), "{area}: {}", found.message);
+        assert_eq!((found.status, found.scope), (Status::Certified, Extent::Global), "{area}: {}", found.message);
         let volume = found.objective.unwrap();
         assert!((volume / (2.0 * 100.0 / 2e5) - 1.0).abs() < 1e-8, "{area}: {volume}");
         assert!(found.message.contains("vanished: r1"), "{area}: {}", found.message);
@@ -78,7 +78,7 @@ fn a_limit_on_compliance_alone_is_proved_global() {
     let area = "{ lower = 1e-6, upper = 1, start = 1e-3 }";
     let rest = "[[loads]]\ncase = \"P\"\nnodes = [\"d\"]\nforce = [30, -100]\n[[constraints]]\nname = \"work\"\nrequire = \"compliance(P) <= 0.05\"\n";
     let (_, found) = solved("compliance", &three_bars(area, rest));
-    assert_eq!((found.status, found.scope), (Status::Certified, Scope::Global), "{}", found.message);
+    assert_eq!((found.status, found.scope), (Status::Certified, Extent::Global), "{}", found.message);
 }
 
 /// Forces follow from equilibrium: N = −P/(2·sin α) in each of two bars, and the sag is Σ N²L/(P·E·A).
@@ -91,13 +91,13 @@ fn a_determinate_truss_is_a_geometric_program() {
     let (subject, found) =
         solved("two-bars", &truss(nodes, supports, &[("a", "c"), ("b", "c")], area, &format!("{load}{stress}")));
     assert_eq!(subject.class(), Class::GeometricProgram);
-    assert_eq!((found.status, found.scope), (Status::Certified, Scope::Global));
+    assert_eq!((found.status, found.scope), (Status::Certified, Extent::Global));
     // A = 1.5·P/(√2·σ̄), two bars of length √2.
     assert!((found.objective.unwrap() / (2.0 * 150.0 / 2e5) - 1.0).abs() < 1e-9, "{:?}", found.objective);
     let sag = "[[constraints]]\nname = \"sag\"\nrequire = \"disp(P, c, z) >= -1e-3\"\n";
     let (subject, found) =
         solved("two-bars-sag", &truss(nodes, supports, &[("a", "c"), ("b", "c")], area, &format!("{load}{sag}")));
-    assert_eq!((subject.class(), found.scope), (Class::GeometricProgram, Scope::Global));
+    assert_eq!((subject.class(), found.scope), (Class::GeometricProgram, Extent::Global));
     // u = P·√2/(E·A) for equal areas.
     assert!((found.objective.unwrap() / (2.0 * 2.0 * 100.0 / (2.1e8 * 1e-3)) - 1.0).abs() < 1e-8, "{:?}", found.objective);
 }

@@ -108,7 +108,7 @@ fn a_linear_conflict_names_rows_bounds_places_and_the_least_moves() {
     assert!(conflict["places"][0].as_str().is_some_and(|place| place.contains("problem.toml:")), "{conflict}");
     let alternatives = conflict["alternatives"].as_array().unwrap();
     let to = |limit: &str| alternatives.iter().find(|found| found["limit"] == limit).map(|found| found["to"].as_f64().unwrap());
-    // With x alone let go, r2 is in the way.
+    // With x alone released, r2 is in the way.
     assert_eq!((to("r1"), to("x.upper"), to("y.upper")), (Some(2.0), None, Some(2.0)), "{conflict}");
     assert!(alternatives.iter().all(|found| found["least"] == true));
     assert!(message(&result).contains("no point meets every limit"));

@@ -11,7 +11,7 @@ const FAR: f64 = 10.0;
 /// Newton steps, and how often one is computed anew without variables that bounds hold.
 const STEPS: usize = 6;
 const PASSES: usize = 4;
-/// How far, relative to the variables' sizes, a point beside one that lies far out may be.
+/// How far, relative to the variables' sizes, a point beside one far from the start may be.
 const BESIDE: f64 = 1e-3;
 /// Roundings in a row's value.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;

@@ -9,6 +9,7 @@ mod gap;
 mod higher_order;
 mod implied_box;
 mod lower_bound;
+mod messages;
 mod multipliers;
 mod newton;
 mod point;
@@ -21,7 +22,6 @@ mod second_order;
 #[cfg(test)]
 mod tests;
 mod types;
-mod words;
 
 use feasibility::{Feasibility, worst_violation};
 use std::time::Instant;
@@ -37,7 +37,7 @@ pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
-pub use types::{Certificate, Scope, Side, Tolerances};
+pub use types::{Certificate, Extent, Side, Tolerances};
 
 /// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
 const REFINABLE: f64 = 1e-2;
@@ -130,9 +130,9 @@ impl<'a> Certifier<'a> {
             }
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
         }
-        certificate.scope = Scope::of(self.class);
+        certificate.scope = Extent::of(self.class);
         self.second_order(&mut point, &multipliers, &mut certificate)?;
-        certificate.messages = words::messages(&point, &multipliers, &certificate, &self.tolerances);
+        certificate.messages = messages::sentences(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
         certificate.bound_multipliers = multipliers.bounds;
         certificate.variable_scales = point.plain_sizes().to_vec();
@@ -205,20 +205,20 @@ impl<'a> Certifier<'a> {
             !(dependent && self.bends_by_choice(point, multipliers))
                 || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
         };
-        let bends_down = escape.as_ref().is_some_and(is_proof);
-        let undecided = if escape.is_some() && !bends_down { Some(0) } else { undecided };
+        let has_negative_curvature = escape.as_ref().is_some_and(is_proof);
+        let undecided = if escape.is_some() && !has_negative_curvature { Some(0) } else { undecided };
         // Convex problems have no inflections, and need no second order: the first proves.
         let (undecided, descent) = match escape.is_some() || self.class.is_global() {
             true => (undecided.filter(|_| !self.class.is_global()), None),
             false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, &flat).unwrap_or_default()),
         };
-        let falls_further = descent.is_some();
-        let mut runaway = match bends_down || falls_further {
+        let descends_at_higher_order = descent.is_some();
+        let mut runaway = match has_negative_curvature || descends_at_higher_order {
             true => Vec::new(),
             false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
         };
         let mut elsewhere = None;
-        let may_deceive = !bends_down && !falls_further && runaway.is_empty();
+        let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.is_empty();
         if may_deceive && self.class != Class::Linear && !point.is_over() {
             match newton::steps(point, &active, self.tolerances.constraint) {
                 Newton::Stays => {}
@@ -229,10 +229,11 @@ impl<'a> Certifier<'a> {
         certificate.led_on = elsewhere.is_some();
         certificate.cut_short = point.is_cut_short();
         let goes_on = !runaway.is_empty() || certificate.led_on || certificate.cut_short;
-        certificate.certified = !bends_down && !falls_further && undecided.is_none() && !goes_on;
+        certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
         certificate.escape = escape.or(descent).or(elsewhere);
-        (certificate.negative_curvature, certificate.falls_further, certificate.runaway) = (bends_down, falls_further, runaway);
-        certificate.undecided = undecided.filter(|_| !falls_further);
+        (certificate.negative_curvature, certificate.descends_at_higher_order, certificate.runaway) =
+            (has_negative_curvature, descends_at_higher_order, runaway);
+        certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
     }
@@ -255,7 +256,7 @@ impl<'a> Certifier<'a> {
         Certificate {
             objective: point.objective,
             primal_infeasibility: feasibility.infeasibility,
-            met_only_far_away: feasibility.only_far_away,
+            feasible_only_at_infinity: feasibility.only_far_away,
             dual_infeasibility: worst_slope(point, multipliers, None).1,
             complementarity: residuals::complementarity(point, multipliers, self.tolerances.optimality),
             row_sides: (0..meta.rows()).map(row_side).collect(),

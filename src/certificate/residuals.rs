@@ -92,7 +92,7 @@ pub(super) fn worst_complementarity(point: &Point<'_>, multipliers: &Multipliers
     (worst.0, sum)
 }
 
-/// Σ|multiplier|·|distance|/σ; where that is not accepted and the model falls apart, of the worst part: many parts that each pass
+/// Σ|multiplier|·|distance|/σ; where that is not accepted and the model decomposes, of the worst part: many parts that each pass
 /// are no fault together.
 pub(super) fn complementarity(point: &Point<'_>, multipliers: &Multipliers, accepted: f64) -> f64 {
     let (sum, meta) = (worst_complementarity(point, multipliers).1, point.meta());

@@ -56,7 +56,7 @@ pub(super) fn variables(
         both.into_iter().find(|direction| valley.runs_off(direction))
     };
     let found = if follows {
-        // Far out, multipliers may be too small to tell which rows push.
+        // Far from the start, multipliers may be too small to tell which rows push.
         let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
         runs_off(&free, &strict).or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
     } else {

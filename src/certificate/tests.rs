@@ -157,20 +157,20 @@ fn flat_to_second_order_a_point_passes_only_where_nothing_falls_beyond() {
     let cubic = Sample::new(&[1.0, 1.0], |x| x[0].powi(3) + x[1] * x[1]);
     for x in [0.0, 1e-9, 1e-5, 3e-4] {
         let point = judge(&cubic, &[x, 0.0]);
-        let is_seen = point.falls_further && point.escape.as_ref().is_some_and(|escape| escape[0] < 0.0);
+        let is_seen = point.descends_at_higher_order && point.escape.as_ref().is_some_and(|escape| escape[0] < 0.0);
         assert!(!point.certified && (is_seen || point.dual_infeasibility > 1e-6), "{x}");
     }
     assert!(judge(&cubic.bound(0, 0.0, INF), &[0.0, 0.0]).certified);
     let monkey = Sample::new(&[0.0, 0.0], |x| x[0].powi(3) - x[0] * x[1] * x[1] * 3.0);
-    assert!(judge(&monkey, &[0.0, 0.0]).falls_further);
+    assert!(judge(&monkey, &[0.0, 0.0]).descends_at_higher_order);
     // Peano: rises along every line, falls along y = 1.5·x².
     let peano = Sample::new(&[0.0, 0.0], |x| (x[1] - x[0] * x[0]) * (x[1] - x[0] * x[0] * 2.0));
     // Found by finite steps, or by following the curve outwards.
     let point = judge(&peano, &[0.0, 0.0]);
-    assert!(!point.certified && (point.falls_further || !point.runaway.is_empty()));
+    assert!(!point.certified && (point.descends_at_higher_order || !point.runaway.is_empty()));
     // y = x³ is an inflection of the row.
     let row = Sample::new(&[1.0, 1.0], |x| x[1]).row(0.0, INF, |x| x[1] - x[0].powi(3));
-    assert!(judge(&row, &[0.0, 0.0]).falls_further);
+    assert!(judge(&row, &[0.0, 0.0]).descends_at_higher_order);
     // Minima, although flat: one by the fourth order, one with a deeper place farther off.
     assert!(judge(&Sample::new(&[1.0, 1.0], |x| x[0].powi(4) + x[1].powi(6)), &[0.0, 0.0]).certified);
     assert!(judge(&Sample::new(&[1.0], |x| x[0].powi(4) - x[0].powi(6)), &[0.0]).certified);
@@ -180,7 +180,7 @@ fn flat_to_second_order_a_point_passes_only_where_nothing_falls_beyond() {
 fn rows_that_contradict_one_another_are_not_met_by_going_far_away() {
     let parallel = Sample::new(&[0.0, 0.0], |x| x[0]).row(1.0, 1.0, |x| x[0] + x[1]).row(1.000_001, 1.000_001, |x| x[0] + x[1]);
     let point = judge(&parallel, &[-1e5, 1e5 + 1.0]);
-    assert!(point.met_only_far_away && point.primal_infeasibility > 1e-8);
+    assert!(point.feasible_only_at_infinity && point.primal_infeasibility > 1e-8);
     // Rounding of far values is no contradiction.
     let far = Sample::new(&[0.0, 0.0], |x| (x[0] - 4.6e9).powi(2)).row(1.0, 1.0, |x| x[0] - x[1]);
     assert!(judge(&far, &[4.6e9, 4.6e9 - 1.0 + 5e-7]).certified);
@@ -294,7 +294,7 @@ fn dependent_weak_limits_are_looked_at() {
 
 #[test]
 fn weak_limits_beside_strict_and_free_directions() {
-    // x strictly active, y weakly, z free: on the cone y² − 4yz + 3z² falls for z = ⅔y, though z alone bends up.
+    // x strictly active, y weakly, z free: on the cone y² − 4yz + 3z² falls for z = ⅔y, though the curvature along z alone is positive.
     let corner = |cross: f64| {
         Sample::new(&[1.0, 1.0, 1.0], move |x| x[0] - x[0] * x[0] * 9.0 + x[1] * x[1] - x[1] * x[2] * cross + x[2] * x[2] * 3.0)
             .bound(0, 0.0, INF)
@@ -311,15 +311,15 @@ fn weak_limits_beside_strict_and_free_directions() {
 
 #[test]
 fn flat_faces_are_left_inwards() {
-    // xy bends up nowhere on the edges of the quadrant; what lies beyond decides.
+    // xy has no positive curvature on the edges of the quadrant; what lies beyond decides.
     let quadrant =
         |power: f64| Sample::new(&[1.0, 1.0], move |x| x[0] * x[1] + x[0].powi(3) * power).bound(0, 0.0, INF).bound(1, 0.0, INF);
     let point = judge(&quadrant(-1.0), &[0.0, 0.0]);
-    assert!(!point.certified && point.falls_further && point.escape.unwrap()[0] > 0.0);
+    assert!(!point.certified && point.descends_at_higher_order && point.escape.unwrap()[0] > 0.0);
     assert!(judge(&quadrant(1.0), &[0.0, 0.0]).certified);
     // Two at once: x⁴ + y⁴ − 3x²y² rises along both edges.
     let both = Sample::new(&[1.0, 1.0], |x| x[0].powi(4) + x[1].powi(4) - x[0] * x[0] * x[1] * x[1] * 3.0);
-    assert!(judge(&both.bound(0, 0.0, INF).bound(1, 0.0, INF), &[0.0, 0.0]).falls_further);
+    assert!(judge(&both.bound(0, 0.0, INF).bound(1, 0.0, INF), &[0.0, 0.0]).descends_at_higher_order);
 }
 
 #[test]

@@ -19,7 +19,7 @@ impl Default for Tolerances {
 
 /// How far a certified minimum reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Scope {
+pub enum Extent {
     /// The class of the problem proves that no feasible point is better.
     Global,
     /// No better point nearby.
@@ -27,10 +27,10 @@ pub enum Scope {
     Local,
 }
 
-impl Scope {
+impl Extent {
     /// What a class proves.
-    pub fn of(class: Class) -> Scope {
-        if class.is_global() { Scope::Global } else { Scope::Local }
+    pub fn of(class: Class) -> Extent {
+        if class.is_global() { Extent::Global } else { Extent::Local }
     }
 }
 
@@ -63,7 +63,7 @@ pub struct Certificate {
     /// Every test holds and no variable has run away.
     pub certified: bool,
     /// How far it reaches, where certified.
-    pub scope: Scope,
+    pub scope: Extent,
     /// f(x)
     pub objective: f64,
     /// c(x), length m.
@@ -75,16 +75,16 @@ pub struct Certificate {
     pub dual_infeasibility: f64,
     /// Σ|multiplier|·|distance to its limit|/σ, violations and bounds included.
     pub complementarity: f64,
-    /// The Lagrangian bends down along a direction of the critical cone, beyond rounding.
+    /// The Lagrangian has negative curvature along a direction of the critical cone, beyond rounding.
     pub negative_curvature: bool,
-    /// Neither is proved, that it bends up on the critical cone nor that it bends down: at so many weakly active limits; 0 where
+    /// Proved is neither that its curvature on the critical cone is positive nor that it is negative somewhere: at so many weakly active limits; 0 where
     /// the multipliers, one choice of many, decide.
     pub undecided: Option<usize>,
     /// Flat to second order along a direction, the objective falls further along it: an inflection, no minimum.
-    pub falls_further: bool,
+    pub descends_at_higher_order: bool,
     /// The rows are met only in the measure of variables that have grown large, and by no point beside this one.
-    pub met_only_far_away: bool,
-    /// A direction along which it bends down or falls further, or Newton's steps lead on; length n, in the problem's variables.
+    pub feasible_only_at_infinity: bool,
+    /// A direction along which its curvature is negative or the objective falls further, or Newton's steps lead on; length n, in the problem's variables.
     pub escape: Option<Vec<f64>>,
     /// y, length m: ≥ 0 where the upper side is active, ≤ 0 where the lower side is.
     pub row_multipliers: Vec<f64>,

@@ -4,7 +4,9 @@ mod examples;
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use ribopt::problem::settings::BACKENDS;
 
 use super::mesh::Stage;
 use examples::{BEGINNING, EXAMPLES, EXIT_CODES, SECTION_EXAMPLES};
@@ -55,7 +57,7 @@ pub struct Solve {
     /// The problem file (TOML), or - for standard input
     pub file: PathBuf,
     /// Use this backend only (repeat for several); default: those of the file, or all that are built in
-    #[arg(long = "backend", value_name = "NAME", value_parser = ["nlopt", "argmin"])]
+    #[arg(long = "backend", value_name = "NAME", value_parser = backend_names())]
     pub backends: Vec<String>,
     /// The algorithm of the backends that know it by this name, `auto` for the others
     #[arg(long, value_name = "NAME")]
@@ -224,6 +226,11 @@ pub struct Analyse {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub changes: Changes,
+}
+
+/// The names a backend may have, built in or not.
+fn backend_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(BACKENDS.iter().map(|backend| backend.name))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

@@ -28,9 +28,10 @@ pub(super) struct Ray {
 const DECADES: i32 = 9;
 /// Half widths of the artificial boxes, in units of the variables' own sizes.
 const BOXES: [f64; 2] = [1e3, 1e5];
-/// How many times its own size a variable has moved that runs off, and how many hide a violation in rounding.
-const AWAY: f64 = 100.0;
-const LOST: f64 = 1e4;
+/// Variable j diverges where |x_j − start_j| > DIVERGED·size_j.
+const DIVERGED: f64 = 100.0;
+/// Rounding may hide a violation at x where |x_j − start_j| > TOO_FAR·size_j for some j.
+const TOO_FAR: f64 = 1e4;
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
 /// Variables tried one by one at the most.
@@ -62,12 +63,12 @@ pub(super) fn examine(session: &Session<'_>, solvers: &[Solver<'_>], answers: &[
 }
 
 /// Whether what another backend found overrules certified points: it goes on falling below them, or, at the same value, certified
-/// points have gone as far in the variables that run off.
+/// points have gone as far in the variables that diverge.
 pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
     let certificate = best.certificate.as_ref()?;
     let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
     let start = &session.task.model.meta().start;
-    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > AWAY * size(start[j]);
+    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > DIVERGED * size(start[j]);
     let overrules = |answer: &Answer| {
         let (x, own) = (&answer.solution.x, answer.certificate.as_ref()?);
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
@@ -82,10 +83,10 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     answers.iter().find_map(overrules)
 }
 
-/// Whether a point lies so far out that rounding may hide what violates the rows there.
-pub(super) fn is_far_out(session: &Session<'_>, x: &[f64]) -> bool {
+/// Whether a point lies so far from the start that rounding may hide a violation of the rows.
+pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let start = &session.task.model.meta().start;
-    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > LOST * size(start))
+    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > TOO_FAR * size(start))
 }
 
 /// The size of a variable that starts here.
@@ -105,7 +106,7 @@ fn axes(meta: &Meta) -> impl Iterator<Item = Vec<f64>> + '_ {
     (0..meta.variables().min(TRIED)).flat_map(move |j| [up(j), down(j)]).flatten()
 }
 
-/// Minima inside two artificial boxes: their difference shows where the problem runs off to.
+/// Minima inside two artificial boxes: their difference is the direction in which the problem diverges.
 fn boxed(session: &Session<'_>, solvers: &[Solver<'_>]) -> Option<Ray> {
     solvers.iter().find_map(|&solver| {
         let [near, far] = BOXES.map(|width| corner(session, solver, width));

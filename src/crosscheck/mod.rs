@@ -11,6 +11,7 @@ mod first_round;
 mod infeasible;
 mod ledger;
 mod merit;
+mod messages;
 mod multistart;
 mod pool;
 mod restarts;
@@ -23,7 +24,6 @@ mod start;
 mod tests;
 mod types;
 mod verdict;
-mod words;
 mod work;
 
 use crate::backends::{Backend, Termination};
@@ -49,7 +49,7 @@ pub fn run(task: &Task<'_>, backends: &[(&dyn Backend, &str)], observers: &mut O
     };
     if session.clock.is_interrupted() && outcome.status == Status::Certified {
         outcome.status = Status::Interrupted;
-        words::interrupted(&mut outcome);
+        messages::interrupted(&mut outcome);
     }
     outcome.moved_start = moved_start.clone();
     outcome
@@ -65,10 +65,10 @@ fn solved(ledger: &mut Ledger<'_, '_>) -> Outcome {
     further_runs(ledger, &mut answers);
     let mut outcome = conclude(ledger, answers);
     if task.starts > 1 {
-        words::more_starts_than(&mut outcome, starts_run);
+        messages::more_starts_than(&mut outcome, starts_run);
     }
     if starts_run < task.starts {
-        words::starts_left_out(&mut outcome, starts_run, task.starts);
+        messages::starts_left_out(&mut outcome, starts_run, task.starts);
     }
     outcome.minima = minima;
     outcome
@@ -181,7 +181,7 @@ fn from_certified(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Resu
 fn from_infeasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outcome {
     let session = ledger.session;
     let near = verdict::best(session, &answers).filter(|&best| answers[best].certificate.is_some());
-    let near = near.map(|best| answers[best].solution.x.clone()).filter(|x| !diverging::is_far_out(session, x));
+    let near = near.map(|best| answers[best].solution.x.clone()).filter(|x| !diverging::is_too_far(session, x));
     let near = near.unwrap_or_else(|| session.task.start.to_vec());
     match infeasible::examine(ledger, &near) {
         Some(Elasticity::Feasible(start)) => {
@@ -201,12 +201,12 @@ fn from_infeasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Out
     }
 }
 
-/// Where the variables of feasible points are so far out that rounding may hide a contradiction of the rows, or where dependent
+/// Where the variables of feasible points are so far from the start that rounding may hide a contradiction of the rows, or where dependent
 /// rows are met, but not to the last digit: the elastic phase tells from the start, and its proof stands against the point.
 fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>, Conflict)> {
     let session = ledger.session;
     let certificate = best.certificate.as_ref()?;
-    let is_suspect = diverging::is_far_out(session, &best.solution.x) || certificate.primal_infeasibility > LAST_DIGITS;
+    let is_suspect = diverging::is_too_far(session, &best.solution.x) || certificate.primal_infeasibility > LAST_DIGITS;
     if !(certificate.multipliers_not_unique && is_suspect) {
         return None;
     }
@@ -226,16 +226,16 @@ fn proved_infeasible(ledger: &mut Ledger<'_, '_>) -> Option<(Vec<f64>, Conflict)
 
 fn from_feasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outcome {
     let session = ledger.session;
-    // So far out rows that contradict one another seem to be met.
+    // So far from the start rows that contradict one another seem to be met.
     let feasible = || answers.iter().filter(|answer| answer.feasible);
-    if feasible().all(|answer| diverging::is_far_out(session, &answer.solution.x))
+    if feasible().all(|answer| diverging::is_too_far(session, &answer.solution.x))
         && let Some((x, conflict)) = proved_infeasible(ledger)
     {
         return verdict::infeasible(session, answers, x, (conflict, true));
     }
     let ray = diverging::examine(session, ledger.solvers, &answers);
     if let Some(ray) = &ray
-        && diverging::is_far_out(session, &ray.from)
+        && diverging::is_too_far(session, &ray.from)
         && let Some((x, conflict)) = proved_infeasible(ledger)
     {
         return verdict::infeasible(session, answers, x, (conflict, true));

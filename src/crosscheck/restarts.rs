@@ -10,7 +10,7 @@ use crate::backends::Termination;
 /// A way to begin again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Restart {
-    /// From a stationary point that is no minimum, a step along the direction in which the objective bends down.
+    /// From a stationary point that is no minimum, a step along the direction of negative curvature.
     EscapeSaddle,
     /// No run: the point on the bounds towards which the objective falls, where it passes.
     BoundsAhead,
@@ -142,7 +142,7 @@ fn go_to_bounds(session: &Session<'_>, answer: &mut Answer) -> bool {
     answer.is_certified()
 }
 
-/// From a stationary point that is no minimum, a step along the direction in which the objective bends down.
+/// From a stationary point that is no minimum, a step along the direction of negative curvature.
 fn escape_saddle(ledger: &mut Ledger<'_, '_>, k: usize, answer: &mut Answer) -> bool {
     let direction = answer.certificate.as_ref().and_then(|certificate| certificate.escape.clone());
     let Some(direction) = direction else { return false };

@@ -250,7 +250,7 @@ fn a_proof_of_infeasibility_stands_against_a_point_far_away() {
             .row(9.0, 9.0, |x| x[0] * 2.0 + x[1] * 2.0);
     let away = Script { variables: 2, ..Script::new("away", &[&[1e16, -1e16]]) };
     let found = judged(&model, Class::Convex, &Settings::default(), &[&away, &Argmin], None);
-    assert_eq!((found.status, found.scope, found.exit_code()), (Status::Infeasible, crate::certificate::Scope::Global, 3));
+    assert_eq!((found.status, found.scope, found.exit_code()), (Status::Infeasible, crate::certificate::Extent::Global, 3));
     assert_eq!(found.conflict.unwrap().rows, [0, 1]);
 }
 

@@ -1,7 +1,7 @@
 //! Where a run begins: the start it is given, moved into the domain where a term has no value there.
 
 use super::Task;
-use super::words;
+use super::messages;
 use crate::model::domain;
 
 /// A start outside the domain, and where the run began instead.
@@ -24,7 +24,7 @@ pub(super) fn in_domain(task: &Task<'_>) -> Option<MovedStart> {
     let moves: Vec<String> = moved.map(|j| format!("{} from {} to {:.6}", model.variable_name(j), start[j], x[j])).collect();
     let remark = format!(
         "the start is outside the domain ({error}); it was moved to a point where everything has a value: {}",
-        words::list(&moves)
+        messages::list(&moves)
     );
     Some(MovedStart { x, remark })
 }

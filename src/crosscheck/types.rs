@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::start::MovedStart;
 use crate::backends::{Iteration, Solution};
-use crate::certificate::{Certificate, Scope};
+use crate::certificate::{Certificate, Extent};
 use crate::model::{Class, Limit, Model, Own, Substitution};
 use crate::problem::Settings;
 
@@ -182,7 +182,7 @@ pub struct Outcome {
     /// What the run is worth.
     pub status: Status,
     /// How far it reaches.
-    pub scope: Scope,
+    pub scope: Extent,
     /// Why, in plain sentences.
     pub message: String,
     /// What to do about it, where there is something to do.

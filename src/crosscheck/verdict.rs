@@ -2,11 +2,11 @@
 
 use super::diverging::{Fall, Ray};
 use super::merit;
+use super::messages;
 use super::session::Session;
-use super::words;
 use super::{Agreement, Answer, Conflict, Outcome, Status};
 use crate::backends::Termination;
-use crate::certificate::{Certifier, Scope, lower_bound};
+use crate::certificate::{Certifier, Extent, lower_bound};
 
 /// Certified points of equal value this far apart, relative, are two minimisers.
 const APART: f64 = 1e-3;
@@ -30,16 +30,16 @@ pub(super) fn better_elsewhere(session: &Session<'_>, answers: &[Answer], best: 
 /// At least one answer is certified.
 pub(super) fn certified(session: &Session<'_>, answers: Vec<Answer>) -> Outcome {
     let mut outcome = standing(session, answers, Status::Certified);
-    outcome.scope = Scope::of(session.task.class);
+    outcome.scope = Extent::of(session.task.class);
     outcome.agreement = agreement(session, &outcome);
     outcome.minimiser_is_not_unique = outcome.agreement.is_some_and(|found| found.agree && found.variable_difference > APART);
     if let Some(best) = outcome.best {
         outcome.better_point_elsewhere = better_elsewhere(session, &outcome.answers, &outcome.answers[best]).is_some();
     }
-    if outcome.scope == Scope::Global {
+    if outcome.scope == Extent::Global {
         outcome.lower_bound = bound(session, &outcome);
     }
-    words::certified(&mut outcome);
+    messages::certified(&mut outcome);
     outcome
 }
 
@@ -54,7 +54,7 @@ pub(super) fn diverging(session: &Session<'_>, answers: Vec<Answer>, ray: Ray) -
     }
     outcome.runaway = (0..ray.direction.len()).filter(|&j| ray.direction[j] != 0.0).collect();
     outcome.direction = Some(ray.direction);
-    words::diverging(session, &mut outcome);
+    messages::diverging(session, &mut outcome);
     outcome
 }
 
@@ -67,8 +67,8 @@ pub(super) fn infeasible(
 ) -> Outcome {
     conflict.keep_own(session.task.model.own());
     let mut outcome = at(session, answers, x, Status::Infeasible);
-    outcome.scope = if proved { Scope::Global } else { Scope::Local };
-    words::infeasible(session, &mut outcome, &conflict);
+    outcome.scope = if proved { Extent::Global } else { Extent::Local };
+    messages::infeasible(session, &mut outcome, &conflict);
     outcome.conflict = Some(conflict);
     outcome
 }
@@ -76,7 +76,7 @@ pub(super) fn infeasible(
 /// No feasible point was found, and nothing is proved.
 pub(super) fn no_feasible_point(session: &Session<'_>, answers: Vec<Answer>, x: Vec<f64>) -> Outcome {
     let mut outcome = at(session, answers, x, Status::Uncertified);
-    words::no_feasible_point(&mut outcome);
+    messages::no_feasible_point(&mut outcome);
     outcome
 }
 
@@ -99,7 +99,7 @@ pub(super) fn undecided(session: &Session<'_>, answers: Vec<Answer>) -> Outcome 
     };
     let mut outcome = standing(session, answers, status);
     outcome.runaway = outcome.certificate.as_ref().map(|certificate| certificate.runaway.clone()).unwrap_or_default();
-    words::undecided(session, &mut outcome);
+    messages::undecided(session, &mut outcome);
     outcome
 }
 

@@ -5,7 +5,7 @@ use super::SyntaxError;
 
 /// One word of the language.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind<'a> {
+pub(super) enum Word<'a> {
     Number(f64),
     /// A name with its dots: `support.Ix`.
     Name(&'a str),
@@ -18,7 +18,7 @@ pub(super) enum Kind<'a> {
 /// A word and its place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Token<'a> {
-    pub(super) kind: Kind<'a>,
+    pub(super) kind: Word<'a>,
     pub(super) span: Span,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Lexer<'a> {
         } else if let Some((sign, instead)) = FOREIGN.iter().find(|(sign, _)| rest.starts_with(sign) && !rest.starts_with("!=")) {
             self.foreign(sign, instead);
         } else if let Some(symbol) = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol)) {
-            self.push(Kind::Symbol(symbol), symbol.len());
+            self.push(Word::Symbol(symbol), symbol.len());
         } else {
             self.unknown();
         }
@@ -99,7 +99,7 @@ impl<'a> Lexer<'a> {
         Span { start, end: self.at }
     }
 
-    fn push(&mut self, kind: Kind<'a>, length: usize) {
+    fn push(&mut self, kind: Word<'a>, length: usize) {
         let span = self.take(length);
         self.tokens.push(Token { kind, span });
     }
@@ -108,7 +108,7 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let length = number_length(rest.as_bytes());
         match rest[..length].parse::<f64>() {
-            Ok(value) if value.is_finite() => self.push(Kind::Number(value), length),
+            Ok(value) if value.is_finite() => self.push(Word::Number(value), length),
             _ => {
                 let message = format!("the number `{}` is too large", &rest[..length]);
                 let span = self.take(length);
@@ -124,7 +124,7 @@ impl<'a> Lexer<'a> {
             length += 1 + word_length(&rest[length + 1..]);
         }
         let dot = self.at + length;
-        self.push(Kind::Name(&rest[..length]), length);
+        self.push(Word::Name(&rest[..length]), length);
         if rest[length..].starts_with('.') {
             let span = Span { start: dot, end: dot + 1 };
             self.at = dot + 1;
@@ -136,7 +136,7 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let quote = &rest[..1];
         match rest[1..].find(quote) {
-            Some(length) => self.push(Kind::Text(&rest[1..=length]), length + 2),
+            Some(length) => self.push(Word::Text(&rest[1..=length]), length + 2),
             None => {
                 let span = self.take(1);
                 self.at = self.text.len();

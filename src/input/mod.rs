@@ -60,16 +60,7 @@ pub struct Input {
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn read(path: &Path) -> Result<Input, Mistakes> {
-    read_with(path, &[])
-}
-
-/// Reads a problem file with some of its numbers replaced, as by `--set`: `NAME.lower=VALUE`, `NAME.upper=VALUE`,
-/// `NAME.start=VALUE` for a variable (`depth`, `x`, `x[2]`, `support.b`), `NAME=VALUE` for a parameter.
-///
-/// # Errors
-/// Every mistake of the file, its tables and the overrides.
-pub fn read_with(path: &Path, overrides: &[String]) -> Result<Input, Mistakes> {
-    read_watched(path, overrides, &|_| {})
+    read_watched(path, &[], &|_| {})
 }
 
 /// How far the reading of a table has come.
@@ -83,7 +74,8 @@ pub struct Progress<'a> {
     pub size: u64,
 }
 
-/// [`read_with`], calling `watch` every now and then while tables are read.
+/// [`read`] with some of the file's numbers replaced, as by `--set`: `NAME.lower=VALUE`, `NAME.upper=VALUE`, `NAME.start=VALUE` for a
+/// variable (`depth`, `x`, `x[2]`, `support.b`), `NAME=VALUE` for a parameter. Calls `watch` every now and then while tables are read.
 ///
 /// # Errors
 /// Every mistake of the file, its tables and the overrides.

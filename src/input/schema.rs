@@ -1,11 +1,13 @@
 //! The JSON Schema of the problem file, for completion and checks in editors.
 
 mod structure;
+#[cfg(test)]
+mod tests;
 
 use serde_json::{Map, Value, json};
 
 use super::parse_tables::{DEFAULT_DEGREE, PROFILE_KINDS};
-use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
+use crate::problem::settings::{AUTO, BACKENDS, BackendNames, Settings};
 use crate::sections::{self, Form, Kind};
 
 /// The schema (JSON Schema, draft 2020-12). Section kinds and their dimensions come from [`sections::KINDS`].
@@ -215,10 +217,9 @@ fn solver() -> Value {
     let defaults = Settings::default();
     let tolerance = |value: f64, what: &str| json!({ "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1, "default": value, "description": what });
     let count = |value: u64, what: &str| json!({ "type": "integer", "minimum": 1, "default": value, "description": what });
-    let algorithm = |names: &[&str]| object(json!({ "algorithm": { "enum": names, "default": "auto" } }), &[]);
-    object(
-        json!({
-            "backends": { "type": "array", "items": { "enum": BACKENDS }, "description": "Default: all that are built in." },
+    let names: Vec<&str> = BACKENDS.iter().map(|backend| backend.name).collect();
+    let mut keys = json!({
+            "backends": { "type": "array", "items": { "enum": names }, "description": "Default: all that are built in." },
             "optimality_tolerance": tolerance(defaults.optimality_tolerance, "Largest accepted dual infeasibility (TolFun)."),
             "step_tolerance": tolerance(defaults.step_tolerance, "Relative step below which a run has stopped (TolX)."),
             "constraint_tolerance": tolerance(defaults.constraint_tolerance, "Largest accepted violation, relative (TolCon)."),
@@ -226,29 +227,14 @@ fn solver() -> Value {
             "max_evaluations": count(defaults.max_evaluations, "Evaluations per backend."),
             "max_seconds": { "type": "number", "minimum": 0, "default": defaults.max_seconds,
                 "description": "Seconds for the whole command." },
-            "nlopt": algorithm(NLOPT_ALGORITHMS),
-            "argmin": algorithm(ARGMIN_ALGORITHMS),
-        }),
-        &[],
-    )
+    });
+    for backend in BACKENDS {
+        keys[backend.name] = algorithm(backend);
+    }
+    object(keys, &[])
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_kind_has_a_rule_with_its_dimensions() {
-        let section = schema()["properties"]["sections"]["additionalProperties"].clone();
-        let rules = section["allOf"].as_array().cloned().unwrap_or_default();
-        assert_eq!(rules.len(), sections::KINDS.len());
-        assert_eq!(rules[0]["then"]["required"], json!(["kind", "b", "h"]));
-        for (kind, form) in sections::forms() {
-            let rule = rules.iter().find(|rule| rule["if"]["properties"]["kind"]["const"] == kind.name()).expect("a rule");
-            for name in form.dimensions {
-                let key = list_name(name).unwrap_or(name);
-                assert!(rule["then"]["properties"].get(key).is_some(), "{}: {key}", kind.name());
-            }
-        }
-    }
+fn algorithm(backend: &BackendNames) -> Value {
+    let names: Vec<&str> = [AUTO].iter().chain(backend.algorithms).copied().collect();
+    object(json!({ "algorithm": { "enum": names, "default": AUTO } }), &[])
 }

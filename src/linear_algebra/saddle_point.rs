@@ -1,4 +1,4 @@
-//! Whether a symmetric matrix S bends down on the null space of a matrix A, by the inertia of [S Aᵀ; A −δI], dense.
+//! Whether a symmetric matrix S has negative curvature on the null space of a matrix A, by the inertia of [S Aᵀ; A −δI], dense.
 //!
 //! Most pass by a definite matrix of half the order, which proves the same by Haynsworth's inertia additivity ("Determination
 //! of the inertia of a partitioned Hermitian matrix", 1968); the indefinite one is factorised only where that fails.
@@ -10,8 +10,8 @@ use super::{Inertia, cholesky};
 pub const DUAL: f64 = 1e-11;
 /// Rows whose combination is shorter than this (squared) are dependent.
 pub const DEPENDENT: f64 = 1e-12;
-/// What an active row adds across itself, in units of the yardsticks: far above any curvature, and far below what would hide
-/// in rounding what decides (a share of 1e−7).
+/// P of S + AᵀPA, in units of the scales W: above |S| (1 in these units), so that S decides on the null space alone, and below the
+/// 1e9 at which its rounding (1e−16 of it) would reach the curvature that decides (1e−7).
 const PENALTY: f64 = 1e3;
 
 /// S and A, and room for factors.
@@ -21,7 +21,7 @@ pub struct SaddlePoint {
     held: usize,
     /// S, row by row, lower triangle.
     pub hessian: Vec<f64>,
-    /// The yardstick of each row of S.
+    /// W, the scale of each row of S.
     pub weights: Vec<f64>,
     /// A, row by row.
     pub rows: Vec<f64>,
@@ -62,10 +62,10 @@ impl SaddlePoint {
         cholesky::factor(&mut self.matrix, m)
     }
 
-    /// Whether S + shift·W bends down on the null space of A.
-    pub fn bends_down(&mut self, shift: f64) -> bool {
+    /// Whether S + shift·W has negative curvature on the null space of A.
+    pub fn has_negative_curvature(&mut self, shift: f64) -> bool {
         let (p, m) = (self.free, self.held);
-        if self.bends_up(shift) {
+        if self.is_positive_on_null_space(shift) {
             return false;
         }
         let weights = std::mem::take(&mut self.weights);
@@ -75,9 +75,9 @@ impl SaddlePoint {
     }
 
     /// S + shift·W + AᵀPA is positive definite for a P ≤ I/δ. Then S + shift·W + AᵀA/δ is, which is the Schur complement of −δI
-    /// in [S + shift·W, Aᵀ; A, −δI], and that matrix has one negative eigenvalue per row. Tested in units of the yardsticks W,
+    /// in [S + shift·W, Aᵀ; A, −δI], and that matrix has one negative eigenvalue per row. Tested in units of the scales W,
     /// each row of A at the length one: nothing is lost in rounding.
-    fn bends_up(&mut self, shift: f64) -> bool {
+    fn is_positive_on_null_space(&mut self, shift: f64) -> bool {
         let (p, m) = (self.free, self.held);
         reset(&mut self.matrix, p * p);
         for i in 0..p {

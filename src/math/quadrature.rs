@@ -81,7 +81,7 @@ struct Piece {
     a: f64,
     b: f64,
     value: f64,
-    /// ∫|f|, the yardstick of the tolerance.
+    /// ∫|f|: the tolerance is relative to its sum.
     magnitude: f64,
     error: f64,
 }
@@ -117,8 +117,8 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, tolerance: f64) 
     let mut pieces = BinaryHeap::from([piece(&mut f, a, b)?]);
     loop {
         let best = total(&pieces);
-        let yardstick: f64 = pieces.iter().map(|piece| piece.magnitude).sum();
-        if best.error <= tolerance * yardstick {
+        let size: f64 = pieces.iter().map(|piece| piece.magnitude).sum();
+        if best.error <= tolerance * size {
             return Ok(best);
         }
         let Some(worst) = pieces.pop() else { return Ok(best) };

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::auxiliaries;
 use super::components::{ComponentView, Components, Members};
 use super::element_model::ElementModel;
-use super::elements::Group;
+use super::elements::KernelGroup;
 use super::{Evaluation, EvaluationError, Meta, Model, Names, Own};
 use crate::problem::Problem;
 
@@ -79,7 +79,7 @@ impl RibModel {
 
     /// Number of elements (objective, rows) and of kernels they share.
     pub fn elements(&self) -> (usize, usize, usize) {
-        let count = |groups: &[Group]| groups.iter().map(Group::len).sum();
+        let count = |groups: &[KernelGroup]| groups.iter().map(KernelGroup::len).sum();
         let (objective, rows) = (&self.inner.objective_groups, &self.inner.row_groups);
         (count(objective), count(rows), objective.len() + rows.len())
     }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::affine::Affine;
-use super::elements::Group;
+use super::elements::KernelGroup;
 use super::{Pattern, all_finite};
 use crate::expression::tape::Workspace;
 
@@ -35,7 +35,7 @@ impl Run {
 struct Reach(Vec<Vec<Run>>);
 
 impl Reach {
-    fn of(count: usize, groups: &[&Group], reached: impl Fn(&Group, usize) -> &[u32]) -> Reach {
+    fn of(count: usize, groups: &[&KernelGroup], reached: impl Fn(&KernelGroup, usize) -> &[u32]) -> Reach {
         let mut runs: Vec<Vec<Run>> = vec![Vec::new(); count.div_ceil(CHUNK)];
         for (number, group) in groups.iter().enumerate() {
             for index in 0..group.len() {
@@ -67,22 +67,23 @@ pub(super) struct Chunks {
 
 impl Chunks {
     /// `None` where the model is too small to be worth it.
-    pub fn of(variables: usize, rows: usize, objective_groups: &[Group], row_groups: &[Group]) -> Option<Chunks> {
-        let (objective, of_rows): (Vec<&Group>, Vec<&Group>) = (objective_groups.iter().collect(), row_groups.iter().collect());
-        let all: Vec<&Group> = objective_groups.iter().chain(row_groups).collect();
+    pub fn of(variables: usize, rows: usize, objective_groups: &[KernelGroup], row_groups: &[KernelGroup]) -> Option<Chunks> {
+        let (objective, of_rows): (Vec<&KernelGroup>, Vec<&KernelGroup>) =
+            (objective_groups.iter().collect(), row_groups.iter().collect());
+        let all: Vec<&KernelGroup> = objective_groups.iter().chain(row_groups).collect();
         if all.iter().map(|group| group.len()).sum::<usize>() < FEWEST {
             return None;
         }
         Some(Chunks {
-            objective: Reach::of(variables, &objective, Group::inputs),
-            rows: Reach::of(rows, &of_rows, Group::row),
-            all: Reach::of(variables, &all, Group::inputs),
+            objective: Reach::of(variables, &objective, KernelGroup::inputs),
+            rows: Reach::of(rows, &of_rows, KernelGroup::row),
+            all: Reach::of(variables, &all, KernelGroup::inputs),
         })
     }
 
     /// The objective's gradient, overwritten: affine part and elements. Returns the sum of the elements, NaN where a derivative
     /// is not finite: what a thread has just written it also clears and checks, while it is near.
-    pub fn gradient(&self, affine: &Affine, groups: &[Group], x: &[f64], gradient: &mut [f64]) -> f64 {
+    pub fn gradient(&self, affine: &Affine, groups: &[KernelGroup], x: &[f64], gradient: &mut [f64]) -> f64 {
         let sums: Vec<f64> = gradient
             .par_chunks_mut(CHUNK)
             .zip(&self.objective.0)
@@ -99,7 +100,7 @@ impl Chunks {
     }
 
     /// Adds the elements of the rows to their rows; says whether the sums are finite.
-    pub fn add_rows(&self, groups: &[Group], x: &[f64], values: &mut [f64]) -> bool {
+    pub fn add_rows(&self, groups: &[KernelGroup], x: &[f64], values: &mut [f64]) -> bool {
         let add = |(number, (target, runs)): (usize, (&mut [f64], &Vec<Run>))| {
             for run in runs {
                 groups[run.group as usize].add_rows(run.range(), x, number * CHUNK, target);
@@ -111,7 +112,7 @@ impl Chunks {
 
     /// The Jacobian's values, overwritten: those of the linear parts and the gradients of the rows' elements; says whether they
     /// are finite.
-    pub fn jacobian(&self, linear: &[f64], groups: &[Group], pattern: &Pattern, x: &[f64], values: &mut [f64]) -> bool {
+    pub fn jacobian(&self, linear: &[f64], groups: &[KernelGroup], pattern: &Pattern, x: &[f64], values: &mut [f64]) -> bool {
         each(pattern, &self.rows, values, |first, target, runs| {
             target.copy_from_slice(&linear[first..first + target.len()]);
             for run in runs {
@@ -123,7 +124,7 @@ impl Chunks {
     /// The second derivatives of all elements, overwritten, groups of the objective first; says whether they are finite.
     pub fn hessian(
         &self,
-        groups: &[&Group],
+        groups: &[&KernelGroup],
         pattern: &Pattern,
         x: &[f64],
         (weight, y): (f64, &[f64]),

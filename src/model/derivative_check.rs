@@ -11,7 +11,7 @@ const MOST_VARIABLES: usize = 400;
 const WORK: usize = 8_000_000;
 const FEWEST_VARIABLES: usize = 20;
 
-/// Components looked at, of a model that falls apart.
+/// Components looked at, of a model that decomposes.
 const MOST_COMPONENTS: usize = 100;
 
 /// Relative disagreement that counts as a wrong derivative.
@@ -65,7 +65,7 @@ pub fn derivative_check(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck,
     }
 }
 
-/// Of a large model that falls apart an even selection of components is looked at, each by itself: differences of the whole
+/// Of a large model that decomposes an even selection of components is looked at, each by itself: differences of the whole
 /// would cost as much as its size for every variable.
 fn check_components(components: &dyn Components, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
     let partition = components.partition();

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::affine::Affine;
 use super::chunked_evaluation::Chunks;
-use super::elements::{Group, Label};
+use super::elements::{KernelGroup, Label};
 use super::{EvaluationError, Meta, Model, all_finite};
 
 /// Objective and rows as affine functions and elements, with exact sparse derivatives.
@@ -18,9 +18,9 @@ pub(super) struct ElementModel {
     /// The rows' affine parts: values along the Jacobian's pattern, zero elsewhere.
     pub linear_jacobian: Vec<f64>,
     /// Elements of the objective, by kernel.
-    pub objective_groups: Vec<Group>,
+    pub objective_groups: Vec<KernelGroup>,
     /// Elements of the rows, by kernel.
-    pub row_groups: Vec<Group>,
+    pub row_groups: Vec<KernelGroup>,
     /// How a large model is evaluated side by side, once somebody asked.
     pub chunks: OnceLock<Option<Chunks>>,
 }
@@ -31,7 +31,7 @@ impl ElementModel {
         self.chunks.get_or_init(|| Chunks::of(n, m, &self.objective_groups, &self.row_groups)).as_ref()
     }
 
-    fn invalid(&self, groups: &[Group], x: &[f64], fallback: &str) -> EvaluationError {
+    fn invalid(&self, groups: &[KernelGroup], x: &[f64], fallback: &str) -> EvaluationError {
         if let Some(j) = x.iter().position(|value| !value.is_finite()) {
             return EvaluationError::Invalid {
                 term: self.meta.names.variable(j),
@@ -106,7 +106,7 @@ impl Model for ElementModel {
     }
 
     fn hessian(&self, x: &[f64], weight: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
-        let groups: Vec<&Group> = self.objective_groups.iter().chain(&self.row_groups).collect();
+        let groups: Vec<&KernelGroup> = self.objective_groups.iter().chain(&self.row_groups).collect();
         let finite = match self.chunks() {
             Some(chunks) => chunks.hessian(&groups, &self.meta.hessian, x, (weight, y), values),
             None => {

@@ -22,7 +22,7 @@ pub enum Label {
 }
 
 /// Elements that share a kernel.
-pub struct Group {
+pub struct KernelGroup {
     kernel: Arc<dyn Kernel>,
     /// Variables of each element, `kernel.inputs()` apiece, distinct within an element.
     inputs: Vec<u32>,
@@ -66,10 +66,10 @@ struct Element<'a> {
     data: &'a [f64],
 }
 
-impl Group {
+impl KernelGroup {
     /// An empty group.
-    pub fn new(kernel: Arc<dyn Kernel>) -> Group {
-        Group {
+    pub fn new(kernel: Arc<dyn Kernel>) -> KernelGroup {
+        KernelGroup {
             kernel,
             inputs: Vec::new(),
             data: Vec::new(),
@@ -103,8 +103,8 @@ impl Group {
     }
 
     /// A group of the same kernel, without elements.
-    pub fn empty_like(&self) -> Group {
-        Group::new(Arc::clone(&self.kernel))
+    pub fn empty_like(&self) -> KernelGroup {
+        KernelGroup::new(Arc::clone(&self.kernel))
     }
 
     /// The variables of one element.

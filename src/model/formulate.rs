@@ -3,14 +3,10 @@
 
 use std::sync::Arc;
 
+use super::components::{FEWEST_VARIABLES, SMALL};
 use super::views::flange_substitution::FlangeSubstitution;
 use super::{Assembled, AssemblyError, Class, Classification, Model, RibModel, Substitution, assemble_any, classify};
 use crate::problem::Problem;
-
-/// Models of so many variables and more are solved component by component where they decompose into small ones,
-const DECOMPOSED_FROM: usize = 200;
-/// of no more variables than this: each is then solved in variables that suit it.
-const SMALL_COMPONENT: usize = 64;
 
 /// A problem in all the forms it is solved and shown in.
 pub struct Formulation {
@@ -69,8 +65,8 @@ fn formulated(problem: Problem) -> Result<Formulation, AssemblyError> {
 
 /// Whether the model decomposes into so many small components that it is solved one by one, each in variables that suit it.
 fn has_small_components(model: &RibModel) -> bool {
-    let large = model.meta().variables() >= DECOMPOSED_FROM;
-    large && model.components().is_some_and(|components| components.partition().largest() <= SMALL_COMPONENT)
+    let large = model.meta().variables() >= FEWEST_VARIABLES;
+    large && model.components().is_some_and(|components| components.partition().largest() <= SMALL)
 }
 
 /// H beams given by two heights are solved in the flange thickness, where the bounds let it vanish.

@@ -44,6 +44,12 @@ impl Sample {
         self
     }
 
+    /// Says of all rows that they are linear.
+    pub fn linear(mut self) -> Sample {
+        self.meta.row_is_linear.fill(true);
+        self
+    }
+
     /// One more row: lower ≤ row ≤ upper.
     pub fn row(mut self, lower: f64, upper: f64, row: impl Fn(&[Value]) -> Value + Send + Sync + 'static) -> Sample {
         self.rows.push(Box::new(row));

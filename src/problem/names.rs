@@ -3,6 +3,9 @@
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use hashbrown::HashTable;
+use hashbrown::hash_table::Entry;
+
 use super::Problem;
 use super::texts::Texts;
 
@@ -32,80 +35,36 @@ impl Entity {
     }
 }
 
-/// Finds a name among millions without keeping a second copy of any: a table of hashes and numbers, a name's place being the
-/// first free one from its hash on.
+/// Finds a name among millions without keeping a second copy of any: a table of numbers, found by the hashes of their names.
 #[derive(Debug, Default)]
 pub struct NameIndex {
-    slots: Vec<Slot>,
-    entered: usize,
+    numbers: HashTable<u32>,
 }
-
-#[derive(Debug, Clone, Copy)]
-struct Slot {
-    hash: u32,
-    number: u32,
-}
-
-/// No name has this number.
-const FREE: u32 = u32::MAX;
 
 impl NameIndex {
     /// The number of `name` in `names`.
     pub fn find(&self, names: &Texts, name: &str) -> Option<u32> {
-        let slot = self.slots.get(self.place(names, name, hash(name))?)?;
-        (slot.number != FREE).then_some(slot.number)
+        self.numbers.find(hash(name), |&number| names[number as usize] == *name).copied()
     }
 
     /// Enters the name that stands at `number` of `names`, or brings back the number it already has.
     pub fn enter(&mut self, names: &Texts, number: u32) -> Result<(), u32> {
-        // At most half of the table is taken: ways to a free place stay short.
-        if 2 * (self.entered + 1) > self.slots.len() {
-            self.grow();
-        }
         let name = &names[number as usize];
-        let hash = hash(name);
-        let Some(place) = self.place(names, name, hash) else { return Ok(()) }; // a table has places
-        match self.slots[place].number {
-            FREE => {
-                self.slots[place] = Slot { hash, number };
-                self.entered += 1;
+        let is_known = |&known: &u32| names[known as usize] == *name;
+        match self.numbers.entry(hash(name), is_known, |&known| hash(&names[known as usize])) {
+            Entry::Occupied(known) => Err(*known.get()),
+            Entry::Vacant(place) => {
+                place.insert(number);
                 Ok(())
             }
-            known => Err(known),
-        }
-    }
-
-    /// Where the name is, or the free place it would get; `None` in a table without places.
-    fn place(&self, names: &Texts, name: &str, hash: u32) -> Option<usize> {
-        let last = self.slots.len().checked_sub(1)?;
-        let mut place = hash as usize & last;
-        loop {
-            let slot = self.slots[place];
-            if slot.number == FREE || (slot.hash == hash && names[slot.number as usize] == *name) {
-                return Some(place);
-            }
-            place = (place + 1) & last;
-        }
-    }
-
-    /// Twice the places, always a power of two.
-    fn grow(&mut self) {
-        let size = (2 * self.slots.len()).max(16);
-        let old = std::mem::replace(&mut self.slots, vec![Slot { hash: 0, number: FREE }; size]);
-        for slot in old.into_iter().filter(|slot| slot.number != FREE) {
-            let mut place = slot.hash as usize & (size - 1);
-            while self.slots[place].number != FREE {
-                place = (place + 1) & (size - 1);
-            }
-            self.slots[place] = slot;
         }
     }
 }
 
-fn hash(name: &str) -> u32 {
+fn hash(name: &str) -> u64 {
     let mut hasher = DefaultHasher::new();
     name.hash(&mut hasher);
-    hasher.finish() as u32
+    hasher.finish()
 }
 
 /// All names of a problem.

@@ -115,7 +115,7 @@ impl<'a> Valley<'a> {
                 if doubling >= ENOUGH { break } else { return None }
             };
             if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
-                // So far out that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
+                // So far from the start that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
                 let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
                 if is_lost { break } else { return None }
             }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::backends::{Solution, Termination};
-use crate::certificate::{Certificate, Scope};
+use crate::certificate::{Certificate, Extent};
 use crate::crosscheck::{Agreement, Answer, Conflict, LimitMove, Status};
 use crate::model::Limit as AnyLimit;
 use crate::model::sample::Sample;
@@ -67,7 +67,7 @@ fn outcome() -> Outcome {
     };
     Outcome {
         status: Status::Certified,
-        scope: Scope::Global,
+        scope: Extent::Global,
         message: "the answer is proved".into(),
         x: vec![0.5, 0.7],
         objective: Some(1.9),

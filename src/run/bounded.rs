@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::Subject;
 use super::unobserved::unobserved;
 use crate::backends::argmin::Argmin;
-use crate::certificate::Scope;
+use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::model::relaxation::relaxation;
 use crate::run::Choice;
@@ -15,13 +15,13 @@ const AGREEMENT: f64 = 1e-6;
 
 /// Puts the bound beside a certified minimum, and says so where it reaches it; proves a contradiction where even free forces cannot meet the limits.
 pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: Option<&AtomicBool>) {
-    if outcome.scope == Scope::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
+    if outcome.scope == Extent::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
         return;
     }
     let Some(relaxed) = relaxed(subject, interrupt) else { return };
     match outcome.status {
-        Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Scope::Global) => {
-            outcome.scope = Scope::Global;
+        Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
+            outcome.scope = Extent::Global;
             outcome.message += " No forces that are in equilibrium with the loads meet the limits: this is proved.";
         }
         Status::Certified => above(outcome, &relaxed),
@@ -33,10 +33,10 @@ pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: O
 fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     let Some(objective) = outcome.objective else { return };
     outcome.lower_bound = relaxed.lower_bound.map(|bound| bound.min(objective));
-    let is_global = relaxed.status == Status::Certified && relaxed.scope == Scope::Global;
+    let is_global = relaxed.status == Status::Certified && relaxed.scope == Extent::Global;
     let least = if is_global { relaxed.objective } else { relaxed.lower_bound };
     if least.is_some_and(|least| objective - least <= AGREEMENT * objective.abs().max(least.abs())) {
-        outcome.scope = Scope::Global;
+        outcome.scope = Extent::Global;
         outcome.message += " No design of this layout is below it: whatever forces are in equilibrium with the loads, their limits need as much.";
         outcome.remedy = None;
         outcome.better_point_elsewhere = false;

@@ -4,6 +4,7 @@ use super::RunError;
 use crate::backends::Backend;
 use crate::model::Model;
 use crate::problem::Settings;
+use crate::problem::settings::{AUTO, BACKENDS};
 
 /// A backend and the algorithm asked of it.
 #[derive(Clone)]
@@ -40,7 +41,7 @@ pub fn choose(names: &[String], algorithm: Option<&str>, settings: &Settings) ->
     if names.is_empty() {
         backends = built_in().to_vec();
     }
-    let known = |backend: &dyn Backend, name: &str| name == "auto" || backend.algorithms().contains(&name);
+    let known = |backend: &dyn Backend, name: &str| name == AUTO || backend.algorithms().contains(&name);
     if let Some(name) = algorithm
         && !backends.iter().any(|backend| known(*backend, name))
     {
@@ -48,7 +49,7 @@ pub fn choose(names: &[String], algorithm: Option<&str>, settings: &Settings) ->
     }
     let choice = |backend: &'static dyn Backend| {
         let asked = algorithm.filter(|name| known(backend, name));
-        let algorithm = asked.unwrap_or_else(|| file_algorithm(backend.name(), settings)).to_string();
+        let algorithm = asked.unwrap_or_else(|| settings.algorithm(backend.name())).to_string();
         Choice { backend, algorithm }
     };
     Ok(backends.into_iter().map(choice).collect())
@@ -75,17 +76,10 @@ pub fn all() -> Vec<Choice> {
     choices.collect()
 }
 
-fn file_algorithm<'a>(backend: &str, settings: &'a Settings) -> &'a str {
-    match backend {
-        "nlopt" => &settings.nlopt_algorithm,
-        "argmin" => &settings.argmin_algorithm,
-        _ => "auto",
-    }
-}
-
 fn not_built_in(name: &str) -> RunError {
     let known: Vec<&str> = built_in().iter().map(|backend| backend.name()).collect();
-    let hint = if name == "nlopt" { "; this ribopt was built without its feature `nlopt`" } else { "" };
+    let is_left_out = BACKENDS.iter().any(|backend| backend.name == name);
+    let hint = if is_left_out { format!("; this ribopt was built without its feature `{name}`") } else { String::new() };
     RunError::Choice(format!("there is no backend {name}{hint}; choose from: {}", known.join(", ")))
 }
 
@@ -116,6 +110,15 @@ mod tests {
         let asked = choices.iter().map(|choice| (choice.backend.name(), choice.algorithm.as_str()));
         assert!(asked.clone().any(|pair| pair == ("argmin", "interior-point")));
         assert!(asked.filter(|(backend, _)| *backend != "argmin").all(|(_, algorithm)| algorithm == "auto"));
+    }
+
+    #[test]
+    fn files_and_the_command_line_know_the_backends_by_their_own_names() {
+        for backend in built_in() {
+            let names = BACKENDS.iter().find(|names| names.name == backend.name()).expect("a line in BACKENDS");
+            assert_eq!(names.algorithms, backend.algorithms(), "{}", backend.name());
+        }
+        assert!(cfg!(not(feature = "nlopt")) || built_in().len() == BACKENDS.len());
     }
 
     #[test]

@@ -8,7 +8,7 @@
 
 use super::Subject;
 use super::settled::Settled;
-use crate::certificate::Scope;
+use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status};
 use crate::model::EvaluationError;
 use crate::problem::modes::{Cut, Limited, Pencil, limited, with_cuts};
@@ -66,7 +66,7 @@ pub(super) fn settle(subject: &Subject, outcome: &Outcome, again: impl Fn(&Subje
         last = Some(Settled { subject: refined, outcome: found });
         if ended {
             let mut settled = last?;
-            settled.outcome.scope = Scope::Local;
+            settled.outcome.scope = Extent::Local;
             settled.outcome.message = format!("{words} {}", settled.outcome.message);
             return Some(settled);
         }

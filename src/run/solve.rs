@@ -13,8 +13,7 @@ use super::present::present;
 use super::refinement;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
-use super::vanished::settle;
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation};
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
@@ -100,15 +99,10 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, &request.choices, request.interrupt);
-    let settled = coinciding::settle(subject, &outcome, again).or_else(|| settle(subject, &outcome, again));
-    if let Some(settled) = &settled {
-        outcome = settled.outcome.clone();
-    }
+    let judged = looked_at_anew(subject, &mut outcome, &request.choices, request.interrupt);
     bound_below(subject, &mut outcome, request.interrupt);
     strongest::explain(subject, &mut outcome);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
-    let judged = settled.map(|settled| settled.subject);
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
@@ -156,13 +150,24 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
     let choices = choose(&[], None, &subject.settings)?;
     refuse_if_none_accepts(&choices, subject.model())?;
     let start = subject.model().meta().start.clone();
-    let outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
-    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, &choices, None);
-    let settled = coinciding::settle(subject, &outcome, again).or_else(|| settle(subject, &outcome, again));
-    let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
+    let mut outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
+    looked_at_anew(subject, &mut outcome, &choices, None);
     bound_below(subject, &mut outcome, None);
     strongest::explain(subject, &mut outcome);
     Ok(outcome)
+}
+
+/// Judges an outcome anew where modes coincide or bars have vanished: the problem it is then an outcome of.
+fn looked_at_anew(
+    subject: &Subject,
+    outcome: &mut Outcome,
+    choices: &[Choice],
+    interrupt: Option<&AtomicBool>,
+) -> Option<Subject> {
+    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, interrupt);
+    let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
+    *outcome = settled.outcome;
+    Some(settled.subject)
 }
 
 /// One start of every backend from a point of the user's variables.

@@ -2,7 +2,7 @@
 
 use super::Subject;
 use super::settled::Settled;
-use crate::certificate::{Certificate, Scope, Side};
+use crate::certificate::{Certificate, Extent, Side};
 use crate::crosscheck::{Outcome, Status};
 use crate::model::Meta;
 use crate::model::remainder::remainder;
@@ -35,7 +35,7 @@ pub(super) fn settle(subject: &Subject, outcome: &Outcome, again: impl FnOnce(&S
         return None;
     }
     // What is proved of the rest is not proved of designs with these bars.
-    (found.scope, found.lower_bound) = (Scope::Local, None);
+    (found.scope, found.lower_bound) = (Extent::Local, None);
     found.message = format!("{remark}. Of the structure without them: {}", found.message);
     let bounds = (subject.shown().meta(), rest.shown().meta());
     let judged = found.answers.iter_mut().filter_map(|answer| answer.certificate.as_mut()).chain(found.certificate.as_mut());

@@ -6,7 +6,7 @@ use super::coinciding;
 use super::present::present;
 use super::vanished::without_vanished;
 use super::{RunError, Subject};
-use crate::certificate::{Certificate, Scope, Tolerances, certify};
+use crate::certificate::{Certificate, Extent, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
 use crate::report::answer::EarlierAnswer;
 
@@ -19,12 +19,12 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
     if let Some((rest, x, remark)) = without_vanished(subject, &point) {
         let found = judged(&rest, &x);
         let message = format!("{remark}. Of the structure without them: {}", found.message);
-        return Ok(Outcome { message, scope: Scope::Local, ..found });
+        return Ok(Outcome { message, scope: Extent::Local, ..found });
     }
     if let Some((refined, words)) = coinciding::refined(subject, &point) {
         let found = judged(&refined, &point);
         let message = format!("{words} {}", found.message);
-        return Ok(Outcome { message, scope: Scope::Local, ..found });
+        return Ok(Outcome { message, scope: Extent::Local, ..found });
     }
     Ok(judged(subject, &point))
 }
@@ -52,8 +52,8 @@ fn judged(subject: &Subject, point: &[f64]) -> Outcome {
 fn message(certificate: &Certificate, sign: f64) -> String {
     let optimum = if sign < 0.0 { "maximum" } else { "minimum" };
     match (certificate.certified, certificate.scope) {
-        (true, Scope::Global) => format!("The point is the global {optimum}."),
-        (true, Scope::Local) => format!("The point is a local {optimum}."),
+        (true, Extent::Global) => format!("The point is the global {optimum}."),
+        (true, Extent::Local) => format!("The point is a local {optimum}."),
         (false, _) => "The point does not pass the certificate.".into(),
     }
 }

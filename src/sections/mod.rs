@@ -26,6 +26,8 @@ mod tee;
 mod toy;
 mod tube;
 
+use std::sync::LazyLock;
+
 use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -290,7 +292,8 @@ pub fn form_number(form: &Form) -> Option<u16> {
 }
 
 fn lookup(number: u16) -> (&'static dyn Kind, &'static Form) {
-    forms().nth(number.into()).expect("form numbers come from form_number")
+    static TABLE: LazyLock<Vec<(&'static dyn Kind, &'static Form)>> = LazyLock::new(|| forms().collect());
+    *TABLE.get(usize::from(number)).expect("form numbers come from form_number")
 }
 
 #[cfg(test)]

@@ -1,6 +1,17 @@
 //! What both interior points do alike, by the rules and under the names of Wächter & Biegler, "On the implementation of an
 //! interior-point filter line-search algorithm for large-scale nonlinear programming", Math. Program. 106 (2006).
 
+/// Where a component of w, a variable or a slack, is held: at its lower or upper bound, or not at all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundState {
+    /// Nothing holds it.
+    Free,
+    /// At its lower bound.
+    Lower,
+    /// At its upper bound.
+    Upper,
+}
+
 /// When and how the barrier parameter falls, and how close to their bounds steps may come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BarrierRule {

@@ -14,7 +14,7 @@ pub mod block_interior_point;
 pub mod interior_point;
 pub mod progress;
 
-pub use progress::{Conclusion, Point, Progress, Reached, Why};
+pub use progress::{Conclusion, Progress, RankedPoint, Reached, Why};
 
 /// A solver that is asked for one iteration after another. It counts nothing and shows nothing: who drives it does.
 pub trait Solver {

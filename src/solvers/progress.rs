@@ -4,7 +4,7 @@ use crate::model::{EvaluationError, Stop};
 
 /// A point with what decides its rank, and what is shown of it.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct RankedPoint {
     /// The model's x.
     pub x: Vec<f64>,
     /// f(x)
@@ -19,9 +19,9 @@ pub struct Point {
     pub multipliers: Option<Vec<f64>>,
 }
 
-impl Point {
+impl RankedPoint {
     /// Feasible (to `tolerance`) before cheap: whether this point ranks above another.
-    pub fn ranks_above(&self, other: &Point, tolerance: f64) -> bool {
+    pub fn ranks_above(&self, other: &RankedPoint, tolerance: f64) -> bool {
         match (self.relative_violation <= tolerance, other.relative_violation <= tolerance) {
             (true, true) => self.objective < other.objective,
             (feasible, also) if feasible != also => feasible,
@@ -75,7 +75,7 @@ impl Conclusion {
 #[derive(Debug)]
 pub struct Reached {
     /// The iterate.
-    pub point: Point,
+    pub point: RankedPoint,
     /// Norm of the step there.
     pub step_norm: f64,
     /// Objective evaluations so far.
@@ -88,12 +88,12 @@ pub struct Progress {
     /// The new iterate; `None` where the last one stands.
     pub at: Option<Reached>,
     /// Set when the run is over: how, and the answer where it is not the best iterate by rank.
-    pub ending: Option<(Conclusion, Option<Point>)>,
+    pub ending: Option<(Conclusion, Option<RankedPoint>)>,
 }
 
 impl Progress {
     /// A new iterate.
-    pub fn at(point: Point, step_norm: f64, evaluations: u64) -> Self {
+    pub fn at(point: RankedPoint, step_norm: f64, evaluations: u64) -> Self {
         Progress { at: Some(Reached { point, step_norm, evaluations }), ending: None }
     }
 
@@ -103,7 +103,7 @@ impl Progress {
     }
 
     /// The same with an ending.
-    pub fn concluded(self, conclusion: Conclusion, answer: Option<Point>) -> Self {
+    pub fn concluded(self, conclusion: Conclusion, answer: Option<RankedPoint>) -> Self {
         Progress { ending: Some((conclusion, answer)), ..self }
     }
 }
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_feasible_point_ranks_above_a_cheaper_infeasible_one() {
-        let point = |objective: f64, violation: f64| Point {
+        let point = |objective: f64, violation: f64| RankedPoint {
             x: vec![objective],
             objective,
             relative_violation: violation,

@@ -46,7 +46,7 @@ pub enum SplineError {
         /// What stands there.
         value: f64,
     },
-    /// A knot stands too often: the basis would fall apart.
+    /// A knot stands too often: the basis would no longer be continuous.
     #[error("knot {value} stands {count} times; at most {most} for this degree")]
     TooManyRepeats {
         /// The knot.

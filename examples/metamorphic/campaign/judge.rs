@@ -1,6 +1,6 @@
 //! Whether a run of a transformed problem says what is true of the file.
 
-use ribopt::certificate::{Certificate, Scope};
+use ribopt::certificate::{Certificate, Extent};
 use ribopt::crosscheck::Status;
 use ribopt::model::Class;
 
@@ -51,7 +51,7 @@ pub struct Truth {
     pub settles: Option<f64>,
     /// Of the run of the file as it is.
     pub class: Class,
-    pub scope: Scope,
+    pub scope: Extent,
 }
 
 /// A fault and why it is one.
@@ -91,7 +91,7 @@ pub fn is_late(run: &Run, limit: f64) -> bool {
 }
 
 fn is_local_from_elsewhere(done: &Done, run: &Run) -> bool {
-    done.moves_start && run.scope == Scope::Local && run.class == Class::Nonlinear
+    done.moves_start && run.scope == Extent::Local && run.class == Class::Nonlinear
 }
 
 /// From another start a problem that is unbounded or not attained may have a local minimum. The file confirms it, and it is not where
@@ -127,7 +127,7 @@ fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
     if off < 0.0 {
         return wrong(format!("below the optimum {best:?} by {:.1e}", -off));
     }
-    if run.scope == Scope::Global || truth.class.is_global() {
+    if run.scope == Extent::Global || truth.class.is_global() {
         return wrong(format!("above the optimum {best:?} of a {} problem by {off:.1e}", truth.class));
     }
     another_minimum(run.in_file.as_ref(), done, &format!("above {best:?} by {off:.1e}"))
@@ -150,7 +150,7 @@ fn another_minimum(in_file: Option<&Certificate>, done: &Done, off: &str) -> Opt
     }
     let measures =
         format!("dual infeasibility {:.1e}, negative curvature {}", in_file.dual_infeasibility, in_file.negative_curvature);
-    let is_none = in_file.negative_curvature || in_file.falls_further || in_file.dual_infeasibility > NOT_STATIONARY;
+    let is_none = in_file.negative_curvature || in_file.descends_at_higher_order || in_file.dual_infeasibility > NOT_STATIONARY;
     let grade = if is_none { Grade::WronglyCertified } else { Grade::Different };
     Some((grade, format!("{off} and not certified in the file: {measures}")))
 }
@@ -159,7 +159,7 @@ fn lost_class_or_scope(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
     if done.keeps_class && run.class != truth.class {
         return Some((Grade::Different, format!("class {} instead of {}", run.class, truth.class)));
     }
-    let lost = truth.scope == Scope::Global && run.scope == Scope::Local && run.class.is_global();
+    let lost = truth.scope == Extent::Global && run.scope == Extent::Local && run.class.is_global();
     lost.then(|| (Grade::Different, format!("local instead of global in a {} problem", run.class)))
 }
 

@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::Instant;
 
-use ribopt::certificate::{Certificate, Scope};
+use ribopt::certificate::{Certificate, Extent};
 use ribopt::crosscheck::Status;
 use ribopt::files::Inputs;
 use ribopt::model::Class;
@@ -22,7 +22,7 @@ use super::draft::Draft;
 #[derive(Debug, Clone)]
 pub struct Run {
     pub status: Status,
-    pub scope: Scope,
+    pub scope: Extent,
     pub class: Class,
     pub objective: Option<f64>,
     pub lower_bound: Option<f64>,

@@ -8,7 +8,7 @@ use argmin::core::{Error, Executor, KV, Problem, Solver, State, TerminationReaso
 
 use crate::backends::{Iteration, Job, Solution, Termination};
 use crate::model::Evaluator;
-use crate::solvers::{self, Conclusion, Point, Progress, Reached, Why};
+use crate::solvers::{self, Conclusion, Progress, RankedPoint, Reached, Why};
 
 /// Runs a solver to its end or to the limit on iterations, showing every iteration to the job's observer.
 pub(super) fn run(solver: impl solvers::Solver, evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
@@ -24,7 +24,7 @@ pub(super) fn run(solver: impl solvers::Solver, evaluator: &Evaluator<'_>, job: 
 }
 
 /// A run that ended like this at a point, or where it began.
-pub(super) fn concluded(conclusion: Conclusion, point: Option<Point>, job: &Job<'_>) -> Solution {
+pub(super) fn concluded(conclusion: Conclusion, point: Option<RankedPoint>, job: &Job<'_>) -> Solution {
     let termination = match conclusion.why {
         Why::Converged => Termination::Converged,
         Why::LimitReached => Termination::LimitReached,
@@ -33,7 +33,7 @@ pub(super) fn concluded(conclusion: Conclusion, point: Option<Point>, job: &Job<
     };
     let blank = Solution { invalid: conclusion.invalid, ..Solution::at_start(job, termination, conclusion.message) };
     match point {
-        Some(Point { x, multipliers, .. }) => Solution { x, multipliers, ..blank },
+        Some(RankedPoint { x, multipliers, .. }) => Solution { x, multipliers, ..blank },
         None => blank,
     }
 }
@@ -70,10 +70,10 @@ impl<'a, S: solvers::Solver> Solver<&'a Evaluator<'a>, NlpState> for Driven<'_, 
 #[derive(Default)]
 struct NlpState {
     current: Option<Reached>,
-    best: Option<Point>,
+    best: Option<RankedPoint>,
     conclusion: Option<Conclusion>,
     /// The point to hand back, where it is not the best one by rank.
-    answer: Option<Point>,
+    answer: Option<RankedPoint>,
     tolerance: f64,
     iteration: u64,
     last_best: u64,

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::algorithms::Algorithm;
 use super::ffi::{Halt, Setup};
-use super::form::{Form, Kind, LARGEST};
+use super::form::{InequalityForm, LARGEST, RowKind};
 use super::watch::{Candidate, Watch};
 use super::worker::{self, Exchange};
 use crate::model::{EvaluationError, Evaluator, Stop};
@@ -44,7 +44,7 @@ impl End {
 }
 
 struct Session<'s, 'w, 'j> {
-    form: &'s Form<'s>,
+    form: &'s InequalityForm<'s>,
     evaluator: &'s Evaluator<'s>,
     watch: &'s mut Watch<'w, 'j>,
     /// Whether the algorithm steps back from a point whose objective is +∞; from the first it cannot.
@@ -87,14 +87,14 @@ impl Session<'_, '_, '_> {
         within_range("trial point", &exchange.w)?;
         let full = form.complete(&exchange.w);
         let rows = form.rows(&full)?;
-        form.spread(Kind::Inequalities, &rows, &mut exchange.inequalities.values);
-        form.spread(Kind::Equalities, &rows, &mut exchange.equalities.values);
+        form.spread(RowKind::Inequalities, &rows, &mut exchange.inequalities.values);
+        form.spread(RowKind::Equalities, &rows, &mut exchange.equalities.values);
         exchange.objective = form.objective(&full, exchange.derivatives.then_some(&mut exchange.gradient[..]))?;
         if exchange.derivatives && !rows.is_empty() {
             let jacobian = form.jacobian(&full)?;
             within_range("derivative of a row", &jacobian)?;
-            form.spread_jacobian(Kind::Inequalities, &jacobian, &mut exchange.inequalities.jacobian);
-            form.spread_jacobian(Kind::Equalities, &jacobian, &mut exchange.equalities.jacobian);
+            form.spread_jacobian(RowKind::Inequalities, &jacobian, &mut exchange.inequalities.jacobian);
+            form.spread_jacobian(RowKind::Equalities, &jacobian, &mut exchange.equalities.jacobian);
         }
         within_range("objective", &[exchange.objective])?;
         within_range("derivative of the objective", &exchange.gradient)?;
@@ -145,7 +145,7 @@ fn within_range(term: &str, values: &[f64]) -> Result<(), EvaluationError> {
 /// Runs `algorithm` on `form` for at most `evaluations`, and tests the certificate at its end.
 pub(super) fn run(
     algorithm: &Algorithm,
-    form: &Form<'_>,
+    form: &InequalityForm<'_>,
     evaluations: u64,
     evaluator: &Evaluator<'_>,
     watch: &mut Watch<'_, '_>,
@@ -179,14 +179,14 @@ pub(super) fn run(
     }
 }
 
-fn setup(algorithm: &Algorithm, form: &Form<'_>, evaluations: u64, deadline: Option<Instant>) -> Setup {
+fn setup(algorithm: &Algorithm, form: &InequalityForm<'_>, evaluations: u64, deadline: Option<Instant>) -> Setup {
     Setup {
         algorithm: algorithm.code,
         inner: algorithm.inner,
         lower: form.lower().to_vec(),
         upper: form.upper().to_vec(),
-        inequalities: form.count(Kind::Inequalities),
-        equalities: form.count(Kind::Equalities),
+        inequalities: form.count(RowKind::Inequalities),
+        equalities: form.count(RowKind::Equalities),
         most_equalities: algorithm.most_equalities.map(|most| most(form.lower().len())),
         violation: VIOLATION,
         tolerance: if algorithm.gradients { TOLERANCE } else { TOLERANCE_WITHOUT_GRADIENTS },

@@ -1,4 +1,4 @@
-//! A model that falls apart, solved part by part: the work of NLopt's dense algorithms grows with the cube of the size they are given.
+//! A model that decomposes, solved part by part: the work of NLopt's dense algorithms grows with the cube of the size they are given.
 
 use rayon::prelude::*;
 
@@ -7,26 +7,26 @@ use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Ter
 use crate::model::components::Components;
 use crate::model::{Budget, Model};
 
-/// Models with fewer variables are left in one piece: there is nothing to gain.
+/// Models with fewer variables are solved as a whole. Fewer than of our own solvers, since the work of SLSQP grows with n³.
 const FEWEST_VARIABLES: usize = 100;
 /// Parts solved between two lines of the log; a fixed number, so that nothing depends on the number of threads.
 const BATCH: usize = 16;
 
-/// The joined answers of all parts; `None` where the model is small, has bounds only, or does not fall apart.
+/// The joined answers of all parts; `None` where the model is small, has bounds only, or does not decompose.
 pub(super) fn solve(model: &dyn Model, job: &mut Job<'_>) -> Option<Solution> {
     let meta = model.meta();
     // What takes bounds only grows with the size itself.
     if job.algorithm != "auto" || meta.rows() == 0 || meta.variables() < FEWEST_VARIABLES {
         return None;
     }
-    let pieces = model.components().filter(|pieces| pieces.partition().len() > 1)?;
+    let components = model.components().filter(|components| components.partition().len() > 1)?;
     let common = Common::of(job);
-    let parts: Vec<usize> = (0..pieces.partition().len()).collect();
+    let parts: Vec<usize> = (0..components.partition().len()).collect();
     let mut joined = Joined { x: job.start.to_vec(), evaluations: 0, worst: Vec::new(), algorithm: None };
     for (number, batch) in parts.chunks(BATCH).enumerate() {
         let before = joined.x.clone();
-        let solved: Vec<Solution> = batch.par_iter().map(|&k| common.part(pieces.as_ref(), k)).collect();
-        batch.iter().zip(solved).for_each(|(&k, solution)| joined.take(pieces.partition().variables(k), solution));
+        let solved: Vec<Solution> = batch.par_iter().map(|&k| common.part(components.as_ref(), k)).collect();
+        batch.iter().zip(solved).for_each(|(&k, solution)| joined.take(components.partition().variables(k), solution));
         report(model, &joined, &before, number as u64, job);
     }
     Some(joined.solution(parts.len(), job))
@@ -53,9 +53,9 @@ impl<'a> Common<'a> {
     }
 
     /// Part k from its own share of the start; a run that goes on after a limit finds most parts solved.
-    fn part(&self, pieces: &dyn Components, k: usize) -> Solution {
-        let model = pieces.model(k);
-        let start: Vec<f64> = pieces.partition().variables(k).iter().map(|&j| self.start[j as usize]).collect();
+    fn part(&self, components: &dyn Components, k: usize) -> Solution {
+        let model = components.model(k);
+        let start: Vec<f64> = components.partition().variables(k).iter().map(|&j| self.start[j as usize]).collect();
         let test = self.test.map(|test| |x: &[f64]| test(model.as_ref(), x));
         let [optimality_tolerance, step_tolerance, constraint_tolerance] = self.tolerances;
         let mut job = Job {

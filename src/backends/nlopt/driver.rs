@@ -1,7 +1,7 @@
 //! Runs the steps of a plan until the certificate passes, a budget ends, or the plan does.
 
 use super::attempt::{End, run};
-use super::form::Form;
+use super::form::InequalityForm;
 use super::plan::{StartPoint, Step};
 use super::watch::Watch;
 use crate::math::split_mix::SplitMix;
@@ -61,7 +61,7 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
     };
     evaluator.meta().clamp(&mut origin);
     let form = valid_start(evaluator, &origin, sizes).and_then(|(x, scales)| {
-        let mut form = Form::new(evaluator, scales, &x);
+        let mut form = InequalityForm::new(evaluator, scales, &x);
         if step.algorithm.most_equalities.is_some() {
             form.keep_independent()?;
         }
@@ -86,7 +86,7 @@ fn size(j: usize, x: f64, start: f64, meta: &Meta) -> f64 {
     x.abs().max(start.abs()).max(unknown)
 }
 
-/// A little beside `x`, in its own proportions: what runs off or vanishes is not called back by its size at the start.
+/// A little beside `x`, in its own proportions: a variable that has grown or shrunk by orders of magnitude is moved by its present size, not by that of its start.
 fn beside(x: &[f64], meta: &Meta) -> Vec<f64> {
     let mut random = SplitMix::new(SEED);
     let size = |j: usize, x: f64| if x == 0.0 { (meta.upper[j] - meta.lower[j]).min(1.0) } else { x.abs() };

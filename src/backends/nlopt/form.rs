@@ -6,7 +6,7 @@ use crate::model::views::scaled::{Scaled, Scales};
 use crate::model::{EvaluationError, Meta, Model};
 
 /// One side of a row: sign·(c_row − limit), scaled.
-struct Side {
+struct RowSide {
     row: usize,
     sign: f64,
     limit: f64,
@@ -14,7 +14,7 @@ struct Side {
 
 /// Which rows of NLopt's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum RowKind {
     Inequalities,
     Equalities,
 }
@@ -24,7 +24,7 @@ pub(super) enum Kind {
 pub(super) const LARGEST: f64 = 1e100;
 
 /// A scaled model without its fixed variables, rows split into sides.
-pub(super) struct Form<'a> {
+pub(super) struct InequalityForm<'a> {
     scaled: Scaled<'a>,
     free: Vec<usize>,
     /// Position among the free variables; `usize::MAX` for fixed ones.
@@ -32,11 +32,11 @@ pub(super) struct Form<'a> {
     template: Vec<f64>,
     lower: Vec<f64>,
     upper: Vec<f64>,
-    inequalities: Vec<Side>,
-    equalities: Vec<Side>,
+    inequalities: Vec<RowSide>,
+    equalities: Vec<RowSide>,
 }
 
-impl<'a> Form<'a> {
+impl<'a> InequalityForm<'a> {
     /// The model in units of `scales`, to be started at `x`.
     pub fn new(model: &'a dyn Model, scales: Scales, x: &[f64]) -> Self {
         let scaled = Scaled::new(model, scales);
@@ -53,7 +53,7 @@ impl<'a> Form<'a> {
         let lower = free.iter().map(|&j| open(meta.lower[j])).collect();
         let upper = free.iter().map(|&j| open(meta.upper[j])).collect();
         let (inequalities, equalities) = sides(meta, &position);
-        Form { free, position, template, lower, upper, inequalities, equalities, scaled }
+        InequalityForm { free, position, template, lower, upper, inequalities, equalities, scaled }
     }
 
     /// Leaves out equalities whose gradients at the start depend on others'.
@@ -64,7 +64,7 @@ impl<'a> Form<'a> {
         let count = self.equalities.len();
         let mut dense = vec![0.0; count * self.free.len()];
         if !dense.is_empty() {
-            self.spread_jacobian(Kind::Equalities, &self.jacobian(&self.template)?, &mut dense);
+            self.spread_jacobian(RowKind::Equalities, &self.jacobian(&self.template)?, &mut dense);
         }
         let lines: Vec<&[f64]> = dense.chunks_exact(self.free.len().max(1)).collect();
         let is_linear: Vec<bool> = self.equalities.iter().map(|side| self.scaled.meta().row_is_linear[side.row]).collect();
@@ -90,14 +90,14 @@ impl<'a> Form<'a> {
     }
 
     /// Number of g or h.
-    pub fn count(&self, kind: Kind) -> usize {
+    pub fn count(&self, kind: RowKind) -> usize {
         self.sides(kind).len()
     }
 
-    fn sides(&self, kind: Kind) -> &[Side] {
+    fn sides(&self, kind: RowKind) -> &[RowSide] {
         match kind {
-            Kind::Inequalities => &self.inequalities,
-            Kind::Equalities => &self.equalities,
+            RowKind::Inequalities => &self.inequalities,
+            RowKind::Equalities => &self.equalities,
         }
     }
 
@@ -148,14 +148,14 @@ impl<'a> Form<'a> {
     }
 
     /// g or h from c.
-    pub fn spread(&self, kind: Kind, rows: &[f64], values: &mut [f64]) {
+    pub fn spread(&self, kind: RowKind, rows: &[f64], values: &mut [f64]) {
         for (value, side) in values.iter_mut().zip(self.sides(kind)) {
             *value = side.sign * (rows[side.row] - side.limit);
         }
     }
 
     /// The dense Jacobian of g or h, by rows, from the sparse one; `dense` comes zeroed.
-    pub fn spread_jacobian(&self, kind: Kind, sparse: &[f64], dense: &mut [f64]) {
+    pub fn spread_jacobian(&self, kind: RowKind, sparse: &[f64], dense: &mut [f64]) {
         let pattern = &self.scaled.meta().jacobian;
         for (line, side) in dense.chunks_exact_mut(self.free.len()).zip(self.sides(kind)) {
             for at in pattern.range(side.row) {
@@ -192,20 +192,20 @@ fn clamped(mut point: Vec<f64>, meta: &Meta) -> Vec<f64> {
 }
 
 /// A row without a free variable is a constant, and nothing NLopt could change.
-fn sides(meta: &Meta, position: &[usize]) -> (Vec<Side>, Vec<Side>) {
+fn sides(meta: &Meta, position: &[usize]) -> (Vec<RowSide>, Vec<RowSide>) {
     let (mut inequalities, mut equalities) = (Vec::new(), Vec::new());
     let varies = |&row: &usize| meta.jacobian.range(row).any(|at| position[meta.jacobian.columns[at] as usize] != usize::MAX);
     for row in (0..meta.rows()).filter(varies) {
         let (lower, upper) = (meta.row_lower[row], meta.row_upper[row]);
         if lower == upper {
-            equalities.push(Side { row, sign: 1.0, limit: lower });
+            equalities.push(RowSide { row, sign: 1.0, limit: lower });
             continue;
         }
         if lower.is_finite() {
-            inequalities.push(Side { row, sign: -1.0, limit: lower });
+            inequalities.push(RowSide { row, sign: -1.0, limit: lower });
         }
         if upper.is_finite() {
-            inequalities.push(Side { row, sign: 1.0, limit: upper });
+            inequalities.push(RowSide { row, sign: 1.0, limit: upper });
         }
     }
     (inequalities, equalities)

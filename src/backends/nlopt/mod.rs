@@ -2,7 +2,7 @@
 //!
 //! NLopt's status is text to show. A solve is one short sequence of attempts (`plan`), each on a thread that can be left
 //! (`worker`), on a problem of a shape and of numbers that NLopt can take (`algorithms`, `form`, `independent`; docs/nlopt.md).
-//! It ends when the stop test handed in (the certificate) passes. Models that fall apart are solved part by part (`components`).
+//! It ends when the stop test handed in (the certificate) passes. Models that decompose are solved part by part (`components`).
 
 mod algorithms;
 mod attempt;

@@ -49,7 +49,7 @@ pub(super) struct Watch<'w, 'j> {
     /// Where an attempt that has proved a point ends.
     ends_at: u64,
     is_unbounded: bool,
-    /// The objective's scale at the start: later attempts begin far out, where it says nothing.
+    /// The objective's scale at the start: later attempts begin far from the start, where it says nothing.
     unit: Option<f64>,
 }
 

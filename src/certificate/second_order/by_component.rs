@@ -1,4 +1,4 @@
-//! The second-order test of a model that falls apart: each piece by itself, on small dense matrices, side by side.
+//! The second-order test of a model that decomposes: each component by itself, on small dense matrices, side by side.
 
 use rayon::prelude::*;
 
@@ -11,13 +11,7 @@ use crate::certificate::point::Point;
 use crate::linear_algebra::saddle_point::SaddlePoint;
 use crate::linear_algebra::{FactorizationError, Partition};
 use crate::model::Meta;
-
-/// Models of fewer variables are left in one piece.
-const FEWEST_VARIABLES: usize = 200;
-/// Pieces of more variables or rows than this are no work for dense matrices.
-const LARGEST: usize = 64;
-/// Pieces a thread takes at a time, at the least.
-const BATCH: usize = 128;
+use crate::model::components::{BATCH, FEWEST_VARIABLES, SMALL};
 
 /// The pieces, where the patterns make many small ones.
 pub(super) fn apart(meta: &Meta) -> Option<Partition> {
@@ -25,7 +19,7 @@ pub(super) fn apart(meta: &Meta) -> Option<Partition> {
         return None;
     }
     let partition = Partition::of_patterns(&meta.jacobian, &meta.hessian)?;
-    let small = (0..partition.len()).all(|k| partition.variables(k).len().max(partition.rows(k).len()) <= LARGEST);
+    let small = (0..partition.len()).all(|k| partition.variables(k).len().max(partition.rows(k).len()) <= SMALL);
     small.then_some(partition)
 }
 
@@ -49,7 +43,7 @@ pub(super) fn judge(
         curvature.dependent |= found.dependent;
         curvature.singular |= found.singular;
         curvature.add(found.on_cone);
-        if found.bends_down && curvature.escape.is_none() {
+        if found.has_negative_curvature && curvature.escape.is_none() {
             let mut choice = Choice::default();
             choose(&mut choice, point, active, hessian, (partition, k));
             curvature.escape = whole::judge(point, active, hessian, &choice, None)?.escape;
@@ -72,13 +66,13 @@ struct Found {
     dependent: bool,
     singular: bool,
     /// Where all active limits hold.
-    bends_down: bool,
+    has_negative_curvature: bool,
     on_cone: OnCone,
 }
 
 impl Found {
     fn is_worth_noting(&self) -> bool {
-        self.dependent || self.singular || self.bends_down || self.on_cone != OnCone::PROVED
+        self.dependent || self.singular || self.has_negative_curvature || self.on_cone != OnCone::PROVED
     }
 }
 
@@ -100,26 +94,26 @@ impl Piece {
         let Piece { choice, matrices } = self;
         small_kkt::fill(matrices, point, hessian, &choice.free, &choice.held);
         let dependent = matrices.has_dependent_rows();
-        let singular = matrices.bends_down(-ROUNDING);
-        // What bends up beyond rounding does not bend down.
-        let bends_down = singular && matrices.bends_down(ROUNDING);
+        let singular = matrices.has_negative_curvature(-ROUNDING);
+        // Positive beyond rounding is not negative beyond rounding.
+        let has_negative_curvature = singular && matrices.has_negative_curvature(ROUNDING);
         let on_cone = match cone {
-            Some(build) if !bends_down && !self.bends_up_without_weak_limits(point, hessian) => {
+            Some(build) if !has_negative_curvature && !self.is_positive_without_weak_limits(point, hessian) => {
                 weak_limits::judge(point, active, hessian, &self.choice, build)?
             }
             _ => OnCone::PROVED,
         };
-        Ok(Found { dependent, singular, bends_down, on_cone })
+        Ok(Found { dependent, singular, has_negative_curvature, on_cone })
     }
 
     /// The sufficient test, cheaper than the cone's.
-    fn bends_up_without_weak_limits(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
+    fn is_positive_without_weak_limits(&mut self, point: &Point<'_>, hessian: &Hessian) -> bool {
         let relaxed = self.choice.relaxed();
         let choice = relaxed.as_ref().unwrap_or(&self.choice);
         if choice.weak() == 0 {
             return true;
         }
         small_kkt::fill(&mut self.matrices, point, hessian, &choice.loose_variables(), &choice.strict_rows());
-        !self.matrices.bends_down(-ROUNDING)
+        !self.matrices.has_negative_curvature(-ROUNDING)
     }
 }

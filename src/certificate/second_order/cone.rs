@@ -1,9 +1,9 @@
 //! The critical cone: strictly active limits hold as equalities, weakly active ones on one side.
 //!
-//! With Q = W^½⁻¹ S W^½⁻¹ + shift over the loose variables (W the yardsticks of S), A the strict rows and G the weakly active
+//! With Q = W^½⁻¹ S W^½⁻¹ + shift over the loose variables (W the scales of the rows of S), A the strict rows and G the weakly active
 //! limits, inwards, every row of the length one, the matrix [Q Aᵀ Gᵀ; A −δ 0; G 0 −δ] is factorised and solved for right-hand
 //! sides (0, 0, s): then u minimises uᵀQu + (|Au|² + |Gu − s|²)/δ, whose value sᵀMs is (as the multipliers are −Ms) known
-//! with it. Q bends up on the cone {Au = 0, Gu ≥ 0} where it does on its largest subspace and M is copositive: for u in the
+//! with it. Q is positive on the cone {Au = 0, Gu ≥ 0} where it is on its largest subspace and M is copositive: for u in the
 //! cone and s = Gu ≥ 0, uᵀQu ≥ sᵀMs ≥ 0. Conversely, what is weakened by δ is |Q|²δ/4 of curvature at the most. Rows may depend
 //! on one another.
 
@@ -74,13 +74,13 @@ impl<'a> Cone<'a> {
         Ok(Cone { point, loose, strict: m, weak: k, scale, hessian, strict_rows, weak_rows, matrix })
     }
 
-    /// Whether Q, shifted, bends up on the null space of the strict rows, weakly active limits left aside: the sufficient test.
-    pub(super) fn bends_up_without_weak_limits(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+    /// Whether Q, shifted, is positive on the null space of the strict rows, weakly active limits left aside: the sufficient test.
+    pub(super) fn is_positive_without_weak_limits(&mut self, shift: f64) -> Result<bool, FactorizationError> {
         self.factor(shift, 0.0, -1.0)
     }
 
-    /// Whether Q, shifted, bends up on the cone's largest subspace, where all limits hold. To be called before the following.
-    pub(super) fn bends_up_on_subspace(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+    /// Whether Q, shifted, is positive on the cone's largest subspace, where all limits hold. To be called before the following.
+    pub(super) fn is_positive_on_subspace(&mut self, shift: f64) -> Result<bool, FactorizationError> {
         self.factor(shift, 1.0, -DELTA)
     }
 
@@ -104,7 +104,7 @@ impl<'a> Cone<'a> {
         Ok(reduced)
     }
 
-    /// The direction that bends up least among those that leave the weakly active limits by s, in the user's variables, its
+    /// The direction of least curvature among those that leave the weakly active limits by s, in the user's variables, its
     /// largest relative entry 1. `None` where it is not in the cone, by more than what δ may leave.
     pub(super) fn direction(&self, s: &[f64]) -> Result<Option<Vec<f64>>, FactorizationError> {
         let (p, first) = (self.loose.len(), self.loose.len() + self.strict);

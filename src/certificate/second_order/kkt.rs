@@ -75,8 +75,8 @@ impl<'a> Kkt<'a> {
         Ok(Kkt { point, free: free.to_vec(), hessian, rows, size, slopes, held: held.len(), matrix })
     }
 
-    /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then bends down on the null space of A.
-    pub(in crate::certificate) fn bends_down(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+    /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then has negative curvature on the null space of A.
+    pub(in crate::certificate) fn has_negative_curvature(&mut self, shift: f64) -> Result<bool, FactorizationError> {
         let size = &self.size;
         let diagonal = size.iter().map(|&size| shift * weight(size)).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
@@ -102,7 +102,7 @@ impl<'a> Kkt<'a> {
     /// variables, its largest relative entry 1. `None` where its curvature, computed anew, is not below −shift.
     pub(in crate::certificate) fn lowest_direction(&mut self, shift: f64) -> Result<Option<Vec<f64>>, FactorizationError> {
         let mut raised = 4.0 * shift;
-        while raised < 1e12 && self.bends_down(raised)? {
+        while raised < 1e12 && self.has_negative_curvature(raised)? {
             raised *= 4.0;
         }
         let mut v: Vec<f64> = (0..self.free.len()).map(scattered).collect();

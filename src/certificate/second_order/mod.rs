@@ -1,4 +1,4 @@
-//! The second-order test: how the Lagrangian bends on the critical cone of the active rows and bounds.
+//! The second-order test: the Lagrangian's curvature on the critical cone of the active rows and bounds.
 //!
 //! On the largest subspace of the cone, the null space of all active limits, by the inertia of the KKT matrix [S Aᵀ; A −δI] in scaled variables, S = D∇²L D/σ and A the active rows over the free
 //! variables: it has exactly as many negative eigenvalues as A has rows where S is positive definite on the null space of A
@@ -12,6 +12,8 @@ mod kkt;
 mod null_space;
 mod small_kkt;
 mod system;
+#[cfg(test)]
+mod tests;
 mod weak_limits;
 mod whole;
 
@@ -58,11 +60,11 @@ pub(super) fn examine(point: &Point<'_>, active: &Active<'_>, hessian: &Hessian,
 /// What a second-order test says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SecondOrder {
-    /// The Lagrangian bends up on the critical cone, beyond rounding.
+    /// The Lagrangian has positive curvature on the critical cone, beyond rounding.
     BendsUp,
-    /// It does not bend down, but hardly bends up somewhere.
+    /// It has no negative curvature beyond rounding, and somewhere no positive one either.
     Flat,
-    /// It bends down along some direction.
+    /// It has negative curvature along some direction.
     BendsDown,
     /// None of these is shown.
     Undecided,

@@ -16,9 +16,9 @@ use crate::linear_algebra::saddle_point::DUAL;
 const WIDEST: usize = 8;
 /// Fewer variables and rows are no trouble as a whole.
 const FEWEST: usize = 2000;
-/// Whether S shifted by `shift` times its magnitudes certainly bends up on the null space of the active rows. `None` where this test
+/// Whether S shifted by `shift` times its magnitudes is certainly positive on the null space of the active rows. `None` where this test
 /// does not pay, or cannot tell.
-pub(super) fn bends_up(
+pub(super) fn is_positive(
     point: &Point<'_>,
     hessian: &Hessian,
     (free, held): (&[usize], &[usize]),

@@ -7,7 +7,7 @@ use crate::model::{EvaluationError, Model};
 
 /// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
 pub(in crate::certificate) const ROUNDING: f64 = 1e-7;
-/// Yardstick where nothing bends, in units of σ.
+/// The least scale of a row of S, where nothing bends, in units of σ.
 const FLOOR: f64 = 1e-5;
 
 /// The active set at the point.
@@ -162,7 +162,7 @@ impl Hessian {
             }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
             for (at, (row, column)) in pattern.iter().enumerate() {
-                // In this order: the square of a size far out overflows by itself.
+                // In this order: the square of a very large size overflows by itself.
                 let entry = part[at] * point.sizes[row] / point.scale() * point.sizes[column];
                 hessian.values[at] += entry;
                 hessian.size[row] += entry.abs();
@@ -186,7 +186,7 @@ impl Hessian {
     }
 }
 
-/// The yardstick of a row of S.
+/// The scale of a row of S.
 pub(in crate::certificate) fn weight(size: f64) -> f64 {
     size + FLOOR
 }

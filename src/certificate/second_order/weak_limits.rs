@@ -1,4 +1,4 @@
-//! The sufficient condition where limits are weakly active: the Lagrangian bends up along every direction of the critical cone.
+//! The sufficient condition where limits are weakly active: the Lagrangian has positive curvature along every direction of the critical cone.
 
 use super::cone::{Build, Cone};
 use super::system::{Active, Choice, Hessian, ROUNDING};
@@ -25,10 +25,10 @@ const FLAT: f64 = 1e-2;
 /// What the critical cone says.
 #[derive(Debug, PartialEq)]
 pub(super) enum OnCone {
-    /// Bends down along no direction, and up along every one beyond rounding if it is strict. These directions, which leave weakly
-    /// active limits, hardly bend up.
+    /// Curvature is negative along no direction, and positive along every one beyond rounding if it is strict. These directions, which leave weakly
+    /// active limits, have hardly any curvature.
     Holds { is_strict: bool, flat: Vec<Vec<f64>> },
-    /// Bends down along this direction of the cone, in the user's variables.
+    /// Curvature is negative along this direction of the cone, in the user's variables.
     Falls(Vec<f64>),
     /// Neither is shown at so many weakly active limits.
     Undecided(usize),
@@ -40,7 +40,7 @@ impl OnCone {
 }
 
 /// Judges the cone of the weakly active limits and, where that makes a difference this near, of those that nearly are.
-/// On the null space of all active limits the Lagrangian must not bend down.
+/// On the null space of all active limits the Lagrangian must have no negative curvature.
 pub(super) fn judge(
     point: &Point<'_>,
     active: &Active<'_>,
@@ -75,13 +75,13 @@ fn examine(
 ) -> Result<OnCone, FactorizationError> {
     let k = choice.weak();
     let mut cone = Cone::new(point, active, hessian, choice, build)?;
-    if cone.bends_up_without_weak_limits(-ROUNDING)? {
+    if cone.is_positive_without_weak_limits(-ROUNDING)? {
         return Ok(OnCone::PROVED);
     }
-    if cone.bends_up_without_weak_limits(ROUNDING)? {
+    if cone.is_positive_without_weak_limits(ROUNDING)? {
         return Ok(OnCone::Holds { is_strict: false, flat: Vec::new() });
     }
-    if k > MOST || k * cone.order() > WORK || !cone.bends_up_on_subspace(ROUNDING)? {
+    if k > MOST || k * cone.order() > WORK || !cone.is_positive_on_subspace(ROUNDING)? {
         return Ok(OnCone::Undecided(k));
     }
     let reduced = cone.reduced()?;
@@ -94,7 +94,7 @@ fn examine(
         Verdict::Copositive => {
             let flat = flat_directions(point, hessian, &cone, &reduced, k)?;
             let is_strict =
-                cone.bends_up_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
+                cone.is_positive_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
             Ok(OnCone::Holds { is_strict, flat })
         }
     }

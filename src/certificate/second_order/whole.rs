@@ -11,9 +11,9 @@ use crate::linear_algebra::FactorizationError;
 /// What the second derivatives say.
 #[derive(Default)]
 pub(in crate::certificate) struct Curvature {
-    /// A direction of the critical cone along which the Lagrangian bends down, in the user's variables.
+    /// A direction of the critical cone of negative curvature, in the user's variables.
     pub(in crate::certificate) escape: Option<Vec<f64>>,
-    /// The reduced Hessian is singular, or bends down.
+    /// The reduced Hessian is singular, or has negative eigenvalues.
     pub(in crate::certificate) singular: bool,
     /// The active rows are dependent over the free variables.
     pub(in crate::certificate) dependent: bool,
@@ -55,9 +55,9 @@ pub(super) fn judge(
     let (free, held) = (&choice.free, &choice.held);
     // The rows alone make a far sparser matrix.
     let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
-    // What bends up beyond rounding does not bend down.
-    let bends_up = matches!(null_space::bends_up(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
-    let mut curvature = if bends_up { Curvature::default() } else { on_null_space(point, hessian, free, held)? };
+    // Positive beyond rounding is not negative beyond rounding.
+    let is_positive = matches!(null_space::is_positive(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
+    let mut curvature = if is_positive { Curvature::default() } else { on_null_space(point, hessian, free, held)? };
     curvature.dependent = dependent;
     if let Some(build) = cone.filter(|_| curvature.escape.is_none() && curvature.undecided.is_none()) {
         curvature.add(weak_limits::judge(point, active, hessian, choice, build)?);
@@ -68,9 +68,9 @@ pub(super) fn judge(
 /// How S bends on the null space of the rows.
 fn on_null_space(point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) -> Result<Curvature, FactorizationError> {
     let mut kkt = Kkt::new(point, hessian, free, held)?;
-    let singular = kkt.bends_down(-ROUNDING)?;
+    let singular = kkt.has_negative_curvature(-ROUNDING)?;
     let mut curvature = Curvature { singular, ..Curvature::default() };
-    if singular && kkt.bends_down(ROUNDING)? {
+    if singular && kkt.has_negative_curvature(ROUNDING)? {
         curvature.escape = kkt.lowest_direction(ROUNDING)?;
         if curvature.escape.is_none() {
             curvature.leave_undecided(0);

@@ -10,7 +10,7 @@ const EDGE_DECADES: i32 = 14;
 const CHANGED: f64 = 10.0;
 
 /// The power curve x_j·g^p_j through a far point, p_j from how far each variable has come from its own size: outwards, or, where
-/// the point is as far out as numbers go, along the last decades before it. A minimum that is not attained because x·y ≥ 1 leads
+/// the point is as far from the start as numbers go, along the last decades before it. A minimum that is not attained because x·y ≥ 1 leads
 /// away, or a fall along y = x², lies on such a curve.
 pub(super) fn power_curve(session: &Session<'_>, x: &[f64]) -> Option<Ray> {
     let meta = session.task.model.meta();

@@ -1,5 +1,5 @@
 //! Single limits whose move makes the problem feasible: what an engineer asks for. Each is found by a solve of the problem with
-//! that one limit let go, and shown by the point it ends at, which is judged anew in the user's model.
+//! that one limit released, and shown by the point it ends at, which is judged anew in the user's model.
 
 use super::filter::Member;
 use super::{Relaxed, Work};
@@ -55,7 +55,7 @@ fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit, proved: bool) -> Option<
     let inner = Freed::new(work.model, limit);
     let outer = Freed::new(user, limit);
     let judge = Certifier::new(&outer, class, work.session.tolerances);
-    // The way back from substituted variables ends at the user's bounds: a bound is let go in the user's variables.
+    // The way back from substituted variables ends at the user's bounds: a bound is released in the user's variables.
     let substitution = work.session.task.substitution.filter(|_| matches!(limit, Limit::Row(..)));
     let model: &dyn Model = if substitution.is_some() { &inner } else { &outer };
     let mut start = if substitution.is_some() { best.x.clone() } else { work.outward(&best.x) };

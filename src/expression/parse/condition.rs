@@ -4,7 +4,7 @@ use super::cursor::Cursor;
 use super::expression::expression;
 use super::{Parsed, SyntaxError};
 use crate::expression::ast::{Ast, AstKind, Condition};
-use crate::expression::lexer::Kind;
+use crate::expression::lexer::Word;
 use crate::expression::operators::Comparison;
 
 /// `a or b or …`
@@ -40,8 +40,8 @@ fn negation(cursor: &mut Cursor) -> Parsed<Condition> {
 
 /// Whether the parenthesis that comes next holds a condition, not the beginning of a number: told by what follows it.
 fn parenthesised(cursor: &Cursor) -> bool {
-    cursor.peek() == Some(Kind::Symbol("("))
-        && matches!(cursor.after_partner(), None | Some(Kind::Name("and" | "or") | Kind::Symbol(")" | ":")))
+    cursor.peek() == Some(Word::Symbol("("))
+        && matches!(cursor.after_partner(), None | Some(Word::Name("and" | "or") | Word::Symbol(")" | ":")))
 }
 
 fn comparison(cursor: &mut Cursor) -> Parsed<Condition> {
@@ -61,7 +61,7 @@ fn comparison(cursor: &mut Cursor) -> Parsed<Condition> {
 fn operand(cursor: &mut Cursor) -> Parsed<Ast> {
     let span = cursor.span();
     match cursor.peek() {
-        Some(Kind::Text(text)) => {
+        Some(Word::Text(text)) => {
             cursor.advance();
             Ok(Ast { kind: AstKind::Text(text.to_string()), span })
         }
@@ -72,13 +72,13 @@ fn operand(cursor: &mut Cursor) -> Parsed<Ast> {
 /// Goes past a comparison sign, if one is next.
 pub(super) fn comparison_sign(cursor: &mut Cursor) -> Parsed<Option<Comparison>> {
     let sign = match cursor.peek() {
-        Some(Kind::Symbol("<=")) => Comparison::LessOrEqual,
-        Some(Kind::Symbol(">=")) => Comparison::GreaterOrEqual,
-        Some(Kind::Symbol("==")) => Comparison::Equal,
-        Some(Kind::Symbol("!=")) => Comparison::NotEqual,
-        Some(Kind::Symbol("<")) => Comparison::Less,
-        Some(Kind::Symbol(">")) => Comparison::Greater,
-        Some(Kind::Symbol("=")) => {
+        Some(Word::Symbol("<=")) => Comparison::LessOrEqual,
+        Some(Word::Symbol(">=")) => Comparison::GreaterOrEqual,
+        Some(Word::Symbol("==")) => Comparison::Equal,
+        Some(Word::Symbol("!=")) => Comparison::NotEqual,
+        Some(Word::Symbol("<")) => Comparison::Less,
+        Some(Word::Symbol(">")) => Comparison::Greater,
+        Some(Word::Symbol("=")) => {
             return Err(SyntaxError::new(cursor.span(), "`=` is no comparison").help("equality is written `==`"));
         }
         _ => return Ok(None),

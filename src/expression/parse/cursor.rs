@@ -2,7 +2,7 @@
 
 use super::{Parsed, SyntaxError};
 use crate::expression::Span;
-use crate::expression::lexer::{self, Kind, Token};
+use crate::expression::lexer::{self, Token, Word};
 
 /// Levels of nesting (parentheses, calls, signs, powers) that are still read.
 const NESTING_LIMIT: usize = 128;
@@ -32,17 +32,17 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next token's kind.
-    pub(super) fn peek(&self) -> Option<Kind<'a>> {
+    pub(super) fn peek(&self) -> Option<Word<'a>> {
         self.ahead(0)
     }
 
     /// The kind of the token `distance` further on.
-    pub(super) fn ahead(&self, distance: usize) -> Option<Kind<'a>> {
+    pub(super) fn ahead(&self, distance: usize) -> Option<Word<'a>> {
         self.tokens.get(self.at + distance).map(|token| token.kind)
     }
 
     /// The token after the partner of the bracket that comes next.
-    pub(super) fn after_partner(&self) -> Option<Kind<'a>> {
+    pub(super) fn after_partner(&self) -> Option<Word<'a>> {
         let partner = self.partner.get(self.at)?;
         self.tokens.get(partner + 1).map(|token| token.kind)
     }
@@ -66,14 +66,14 @@ impl<'a> Cursor<'a> {
 
     /// Goes past `symbol` if it is next.
     pub(super) fn accept(&mut self, symbol: &str) -> bool {
-        let found = matches!(self.peek(), Some(Kind::Symbol(next)) if next == symbol);
+        let found = matches!(self.peek(), Some(Word::Symbol(next)) if next == symbol);
         self.at += usize::from(found);
         found
     }
 
     /// Goes past `word` if it is next.
     pub(super) fn accept_word(&mut self, word: &str) -> bool {
-        let found = self.peek() == Some(Kind::Name(word));
+        let found = self.peek() == Some(Word::Name(word));
         self.at += usize::from(found);
         found
     }
@@ -88,9 +88,9 @@ impl<'a> Cursor<'a> {
         let (mut at, mut depth) = (self.at, 0usize);
         loop {
             match self.tokens.get(at)?.kind {
-                Kind::Symbol("," | ")") if depth == 0 => break,
-                Kind::Symbol("(") => depth += 1,
-                Kind::Symbol(")") => depth -= 1,
+                Word::Symbol("," | ")") if depth == 0 => break,
+                Word::Symbol("(") => depth += 1,
+                Word::Symbol(")") => depth -= 1,
                 _ => {}
             }
             at += 1;
@@ -128,15 +128,15 @@ impl<'a> Cursor<'a> {
         };
         let error = SyntaxError::new(span, format!("expected {wanted}, found `{}`", &self.text[span.start..span.end]));
         let operator = wanted.contains("operator");
-        let after_number = self.tokens[..self.at].last().is_some_and(|token| matches!(token.kind, Kind::Number(_)));
+        let after_number = self.tokens[..self.at].last().is_some_and(|token| matches!(token.kind, Word::Number(_)));
         match found {
-            Kind::Name(_) if operator && after_number => {
+            Word::Name(_) if operator && after_number => {
                 error.help("a product is written with `*`; numbers carry no units: all are in the file's own")
             }
-            Kind::Number(_) | Kind::Name(_) | Kind::Symbol("(") if operator => error.help("a product is written with `*`"),
-            Kind::Symbol(",") if operator => error.help("a decimal is written with a point: 0.5"),
-            Kind::Symbol("<" | ">" | "<=" | ">=" | "==" | "!=" | "=") => error.help("a comparison cannot stand here"),
-            Kind::Symbol("[") => error.help("an index follows a name, as in x[3]"),
+            Word::Number(_) | Word::Name(_) | Word::Symbol("(") if operator => error.help("a product is written with `*`"),
+            Word::Symbol(",") if operator => error.help("a decimal is written with a point: 0.5"),
+            Word::Symbol("<" | ">" | "<=" | ">=" | "==" | "!=" | "=") => error.help("a comparison cannot stand here"),
+            Word::Symbol("[") => error.help("an index follows a name, as in x[3]"),
             _ => error,
         }
     }
@@ -147,9 +147,9 @@ fn match_brackets(tokens: &[Token], mistakes: &mut Vec<SyntaxError>) -> Vec<usiz
     let mut open: Vec<(usize, &str)> = Vec::new();
     for (index, token) in tokens.iter().enumerate() {
         match token.kind {
-            Kind::Symbol("(") => open.push((index, ")")),
-            Kind::Symbol("[") => open.push((index, "]")),
-            Kind::Symbol(sign @ (")" | "]")) => match open.pop() {
+            Word::Symbol("(") => open.push((index, ")")),
+            Word::Symbol("[") => open.push((index, "]")),
+            Word::Symbol(sign @ (")" | "]")) => match open.pop() {
                 Some((start, wanted)) if wanted == sign => partner[start] = index,
                 Some((start, wanted)) => {
                     let message = format!("expected `{wanted}`, found `{sign}`");

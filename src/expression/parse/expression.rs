@@ -6,7 +6,7 @@ use super::cursor::Cursor;
 use super::{Parsed, SyntaxError};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
-use crate::expression::lexer::Kind;
+use crate::expression::lexer::Word;
 use crate::expression::operators::{Binary, Fold, Unary};
 
 const SUM: Rank = Rank { join: Binary::Add, take: Binary::Subtract };
@@ -68,18 +68,18 @@ fn power(cursor: &mut Cursor) -> Parsed<Ast> {
 fn atom(cursor: &mut Cursor) -> Parsed<Ast> {
     let start = cursor.span().start;
     let kind = match cursor.peek() {
-        Some(Kind::Number(value)) => {
+        Some(Word::Number(value)) => {
             cursor.advance();
             AstKind::Number(value)
         }
-        Some(Kind::Symbol("(")) => {
+        Some(Word::Symbol("(")) => {
             cursor.advance();
             let inner = cursor.nested(expression)?;
             cursor.expect(")")?;
             inner.kind
         }
-        Some(Kind::Name(name)) if !KEYWORDS.contains(&name) => named(cursor, name)?,
-        Some(Kind::Text(_)) => {
+        Some(Word::Name(name)) if !KEYWORDS.contains(&name) => named(cursor, name)?,
+        Some(Word::Text(_)) => {
             let error = SyntaxError::new(cursor.span(), "text is no number");
             return Err(error.help("text stands in conditions only: line == \"L0\""));
         }
@@ -94,8 +94,8 @@ fn named(cursor: &mut Cursor, name: &str) -> Parsed<AstKind> {
     cursor.advance();
     let parts = || AstKind::Name(name.split('.').map(str::to_string).collect());
     match cursor.peek() {
-        Some(Kind::Symbol("(")) => call(cursor, name, span),
-        Some(Kind::Symbol("[")) => {
+        Some(Word::Symbol("(")) => call(cursor, name, span),
+        Some(Word::Symbol("[")) => {
             cursor.advance();
             let index = cursor.nested(expression)?;
             cursor.expect("]")?;
@@ -168,7 +168,7 @@ fn words_or_expressions(cursor: &mut Cursor, case_first: bool) -> Parsed<Vec<Ast
 
 /// The name of a case or combination, as it stands: `ULS`, `1.35G+1.5Q`, or anything in quotes.
 fn case(cursor: &mut Cursor) -> Option<Ast> {
-    if matches!(cursor.peek(), Some(Kind::Text(_))) {
+    if matches!(cursor.peek(), Some(Word::Text(_))) {
         return None;
     }
     let (text, span) = cursor.raw_argument()?;
@@ -178,7 +178,7 @@ fn case(cursor: &mut Cursor) -> Option<Ast> {
 /// Text in quotes, or names and numbers joined by hyphens (`top-left`, `web-centre`) that end the argument.
 fn word(cursor: &mut Cursor) -> Option<Ast> {
     let start = cursor.span().start;
-    if let Some(Kind::Text(text)) = cursor.peek() {
+    if let Some(Word::Text(text)) = cursor.peek() {
         let text = text.to_string();
         cursor.advance();
         return Some(Ast { kind: AstKind::Text(text), span: cursor.since(start) });
@@ -187,13 +187,13 @@ fn word(cursor: &mut Cursor) -> Option<Ast> {
     let mut parts: Vec<String> = Vec::new();
     loop {
         match cursor.ahead(ahead)? {
-            Kind::Name(name) if !name.contains('.') => parts.push(name.to_string()),
-            Kind::Number(number) if ahead > 0 => parts.push(number.to_string()),
+            Word::Name(name) if !name.contains('.') => parts.push(name.to_string()),
+            Word::Number(number) if ahead > 0 => parts.push(number.to_string()),
             _ => return None,
         }
         match cursor.ahead(ahead + 1)? {
-            Kind::Symbol("-") => ahead += 2,
-            Kind::Symbol("," | ")") if ahead > 0 => break,
+            Word::Symbol("-") => ahead += 2,
+            Word::Symbol("," | ")") if ahead > 0 => break,
             _ => return None,
         }
     }
@@ -231,12 +231,12 @@ fn check_arity(cursor: &mut Cursor, name: &str, span: Span, given: usize, least:
 /// `ribs`, `sections` or `nodes`, where a colon or a filter follows.
 fn collection_ahead(cursor: &Cursor) -> Option<Collection> {
     let collection = match cursor.peek() {
-        Some(Kind::Name("ribs")) => Collection::Ribs,
-        Some(Kind::Name("sections")) => Collection::Sections,
-        Some(Kind::Name("nodes")) => Collection::Nodes,
+        Some(Word::Name("ribs")) => Collection::Ribs,
+        Some(Word::Name("sections")) => Collection::Sections,
+        Some(Word::Name("nodes")) => Collection::Nodes,
         _ => return None,
     };
-    matches!(cursor.ahead(1), Some(Kind::Symbol(":") | Kind::Name("where"))).then_some(collection)
+    matches!(cursor.ahead(1), Some(Word::Symbol(":") | Word::Name("where"))).then_some(collection)
 }
 
 /// `ribs where condition: body)`

@@ -10,7 +10,7 @@ use crate::expression::operators::{Binary, Unary};
 const INPUT_LIMIT: usize = 200;
 
 /// Symmetric coefficients of products of inputs: (larger slot, smaller slot) → coefficient of the second derivative.
-type Form = BTreeMap<(u32, u32), Interval>;
+type QuadraticForm = BTreeMap<(u32, u32), Interval>;
 
 /// The curvature of a sum: of its quadratic form and, beside it, of what is no product of affine functions. `Unknown` where no
 /// proof is found.
@@ -27,8 +27,8 @@ pub(super) fn curvature(graph: &Graph, root: NodeId, known: &[Structure]) -> Cur
 }
 
 /// The second derivatives of a sum's quadratic terms, and how all its other terms bend together.
-fn form(graph: &Graph, root: NodeId, known: &[Structure]) -> Option<(Form, Curvature)> {
-    let (mut form, mut rest) = (Form::new(), Curvature::Constant);
+fn form(graph: &Graph, root: NodeId, known: &[Structure]) -> Option<(QuadraticForm, Curvature)> {
+    let (mut form, mut rest) = (QuadraticForm::new(), Curvature::Constant);
     for (node, factor) in linear_parts(graph, root, known) {
         let (left, right) = match graph.node(node) {
             Node::Input(_) => continue,
@@ -90,7 +90,7 @@ fn linear_parts(graph: &Graph, root: NodeId, known: &[Structure]) -> Vec<(NodeId
 }
 
 /// Adds the second derivatives of factor·(a·x)(b·x).
-fn add_product(form: &mut Form, factor: Interval, a: &[(u32, Interval)], b: &[(u32, Interval)]) {
+fn add_product(form: &mut QuadraticForm, factor: Interval, a: &[(u32, Interval)], b: &[(u32, Interval)]) {
     for &(i, ai) in a {
         for &(j, bj) in b {
             let product = factor.multiply(ai).multiply(bj);
@@ -104,7 +104,7 @@ fn add_product(form: &mut Form, factor: Interval, a: &[(u32, Interval)], b: &[(u
 }
 
 /// The lower triangle, row by row; `None` for too many inputs.
-fn dense(form: &Form, sign: f64) -> Option<Vec<Vec<Interval>>> {
+fn dense(form: &QuadraticForm, sign: f64) -> Option<Vec<Vec<Interval>>> {
     let mut slots: Vec<u32> = form.keys().flat_map(|&(i, j)| [i, j]).collect();
     slots.sort_unstable();
     slots.dedup();

@@ -90,7 +90,7 @@ impl OffsetVertex {
 
 /// One side of the outline along one segment: its length is `length` + Σ factor·δ(segment).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Side {
+pub struct SideLength {
     /// The segment, counted from 0.
     pub segment: usize,
     /// Its length on the centre line.
@@ -257,11 +257,11 @@ impl Centreline {
 
     /// How long the two sides of the outline are along each segment, linear in the thicknesses.
     /// Where one is not positive the outline folds over.
-    pub fn sides_along(&self, stepped: bool) -> Vec<Side> {
+    pub fn sides_along(&self, stepped: bool) -> Vec<SideLength> {
         self.lengths(&self.sides(|_, _| stepped))
     }
 
-    fn lengths(&self, sides: &Sides) -> Vec<Side> {
+    fn lengths(&self, sides: &Sides) -> Vec<SideLength> {
         let mut found = Vec::new();
         for segment in 0..self.segments() {
             let [x, y] = unit(self.ends(segment));
@@ -269,7 +269,7 @@ impl Centreline {
             for side in [&sides.left, &sides.right] {
                 let (Some(from), Some(to)) = (side[segment].last(), side[(segment + 1) % side.len()].first()) else { continue };
                 let terms = [along(from, -1.0), along(to, 1.0)].concat();
-                found.push(Side { segment, length: self.segment_length(segment), terms });
+                found.push(SideLength { segment, length: self.segment_length(segment), terms });
             }
         }
         found
@@ -277,7 +277,7 @@ impl Centreline {
 
     /// Both sides of every segment must still run its way.
     fn fold_over(&self, sides: &Sides, each: &[f64]) -> Result<(), PolylineError> {
-        let left = |side: &Side| side.length + side.terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
+        let left = |side: &SideLength| side.length + side.terms.iter().map(|(by, factor)| factor * each[*by]).sum::<f64>();
         match self.lengths(sides).iter().find(|side| left(side) <= 0.0) {
             Some(side) => Err(PolylineError::FoldOver { segment: side.segment + 1 }),
             None => Ok(()),

@@ -10,7 +10,7 @@ use crate::input::declaration::{ConstraintEntry, Name};
 use crate::input::source::{Place, Written};
 use crate::problem::glob::matches;
 use crate::problem::nearest::did_you_mean;
-use crate::problem::resolve::{Filter, ItemScope, Stage};
+use crate::problem::resolve::{ItemFilter, ItemScope, Stage};
 use crate::problem::{Cells, Constraint, Formula, Limit, Scope};
 use crate::sections;
 
@@ -154,7 +154,7 @@ impl Assembly<'_> {
         match filter.choose(&self.problem, scope) {
             Ok(members) => Some(members),
             Err(message) => {
-                self.findings.mistake(written.place, message, Filter::REMEDY);
+                self.findings.mistake(written.place, message, ItemFilter::REMEDY);
                 None
             }
         }

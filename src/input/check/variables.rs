@@ -5,6 +5,7 @@ use crate::files::memory;
 use crate::input::declaration::{Numbers, Range, VariableEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
+use crate::math::within;
 use crate::problem::resolve::Value;
 use crate::problem::words::brief;
 use crate::problem::{Formula, Origin};
@@ -128,7 +129,7 @@ impl Assembly<'_> {
                 self.problem.variables.typical.push(0.0);
                 continue;
             }
-            let inside = if start.is_nan() { middle(lower, upper) } else { start.clamp(lower, upper) };
+            let inside = if start.is_nan() { middle(lower, upper) } else { within(start, lower, upper) };
             self.problem.variables.start[j] = inside;
             self.problem.variables.typical.push(if start.is_nan() { 0.0 } else { start.abs() });
             if !start.is_nan() && inside != start {
@@ -161,7 +162,7 @@ fn wrong(lower: f64, upper: f64, start: f64) -> Option<(String, &'static str)> {
 /// The start of a variable without one: the middle of its bounds, or inside the only one, or 0.
 fn middle(lower: f64, upper: f64) -> f64 {
     match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => (0.5 * lower + 0.5 * upper).clamp(lower, upper),
+        (true, true) => within(0.5 * lower + 0.5 * upper, lower, upper),
         (true, false) => lower + lower.abs().max(1.0),
         (false, true) => upper - upper.abs().max(1.0),
         (false, false) => 0.0,

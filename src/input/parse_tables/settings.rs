@@ -3,7 +3,7 @@
 use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
 use crate::problem::nearest::did_you_mean;
-use crate::problem::settings::{ARGMIN_ALGORITHMS, BACKENDS, NLOPT_ALGORITHMS, Settings};
+use crate::problem::settings::{AUTO, BACKENDS, BackendNames, Settings};
 use crate::problem::words::brief;
 
 /// The table's values, each checked; what is left out keeps its default.
@@ -21,15 +21,19 @@ pub(super) fn settings(mut fields: Fields, settings: &mut Settings, reader: &mut
         settings.max_seconds =
             checked(&field, not_negative, "a number of seconds, 0 or more", reader).unwrap_or(settings.max_seconds);
     }
-    algorithm(&mut fields, "nlopt", NLOPT_ALGORITHMS, &mut settings.nlopt_algorithm, reader);
-    algorithm(&mut fields, "argmin", ARGMIN_ALGORITHMS, &mut settings.argmin_algorithm, reader);
+    for backend in BACKENDS {
+        if let Some(name) = algorithm(&mut fields, backend, reader) {
+            settings.algorithms.insert(backend.name.to_owned(), name);
+        }
+    }
     fields.finish(reader);
 }
 
 fn backends(field: &Field, reader: &mut Reader) -> Vec<String> {
+    let all: Vec<&str> = BACKENDS.iter().map(|backend| backend.name).collect();
     let mut names: Vec<String> = Vec::new();
     for written in field.texts(reader) {
-        if known(&written, "backend", BACKENDS, reader) && !names.contains(&written.text) {
+        if known(&written, "backend", &all, reader) && !names.contains(&written.text) {
             names.push(written.text);
         }
     }
@@ -61,17 +65,18 @@ fn checked(field: &Field, allowed: impl Fn(f64) -> bool, what: &str, reader: &mu
     Some(value)
 }
 
-fn algorithm(fields: &mut Fields, key: &'static str, names: &[&'static str], target: &mut String, reader: &mut Reader) {
-    let Some(mut table) = fields.take(key).and_then(|field| field.table(reader)) else { return };
+/// The algorithm that a backend's own table asks for.
+fn algorithm(fields: &mut Fields, backend: &BackendNames, reader: &mut Reader) -> Option<String> {
+    let mut table = fields.take(backend.name).and_then(|field| field.table(reader))?;
+    let names: Vec<&str> = [AUTO].iter().chain(backend.algorithms).copied().collect();
     let chosen = table.take("algorithm").and_then(|field| field.text(reader));
-    if let Some(written) = chosen.filter(|written| known(written, "algorithm", names, reader)) {
-        *target = written.text;
-    }
+    let chosen = chosen.filter(|written| known(written, "algorithm", &names, reader));
     table.finish(reader);
+    chosen.map(|written| written.text)
 }
 
 /// Whether the name is one of the list; a mistake otherwise.
-fn known(written: &Written, what: &str, names: &[&'static str], reader: &mut Reader) -> bool {
+fn known(written: &Written, what: &str, names: &[&str], reader: &mut Reader) -> bool {
     let found = names.contains(&written.text.as_str());
     if !found {
         let near = did_you_mean(&written.text, names.iter().copied());

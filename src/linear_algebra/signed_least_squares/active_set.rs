@@ -59,7 +59,7 @@ impl<'a> ActiveSet<'a> {
         Some(self.y.clone())
     }
 
-    /// Moves towards the stationary point over the columns in use; those whose multiplier would change its sign are let go.
+    /// Moves towards the stationary point over the columns in use; those whose multiplier would change its sign are released.
     fn settle(&mut self, centre: &[f64]) -> Option<()> {
         loop {
             let z = self.stationary(centre)?;

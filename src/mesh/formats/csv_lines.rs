@@ -31,7 +31,7 @@ pub fn read_csv(source: impl Read) -> Result<PolygonMesh, FormatError> {
         true => Vec::new(),
         false => table.headers().map_err(|cause| explain(&cause))?.iter().map(str::to_lowercase).collect(),
     };
-    let form = if is_data { Form::unnamed(first.split(char::from(delimiter)).count()) } else { Form::named(&header) };
+    let form = if is_data { Columns::unnamed(first.split(char::from(delimiter)).count()) } else { Columns::named(&header) };
     let form = form.map_err(|cause| FormatError::line(1, cause))?;
     let mut reader = Reader::default();
     for record in table.records() {
@@ -51,32 +51,32 @@ fn explain(error: &csv::Error) -> FormatError {
 }
 
 /// Which columns hold what.
-enum Form {
+enum Columns {
     Segments([Option<usize>; 6]),
     Points { line: usize, at: [Option<usize>; 3] },
 }
 
-impl Form {
-    fn unnamed(count: usize) -> Result<Form, String> {
+impl Columns {
+    fn unnamed(count: usize) -> Result<Columns, String> {
         match count {
-            6 => Ok(Form::Segments([0, 1, 2, 3, 4, 5].map(Some))),
-            4 => Ok(Form::Segments([Some(0), Some(1), None, Some(2), Some(3), None])),
+            6 => Ok(Columns::Segments([0, 1, 2, 3, 4, 5].map(Some))),
+            4 => Ok(Columns::Segments([Some(0), Some(1), None, Some(2), Some(3), None])),
             _ => Err(format!("a row of {count} numbers is no segment; give six or four, or name the columns")),
         }
     }
 
-    fn named(header: &[String]) -> Result<Form, String> {
+    fn named(header: &[String]) -> Result<Columns, String> {
         let column = |name: &str| header.iter().position(|known| known == name);
         // x1 stands in two of the forms: the one whose four plane coordinates are all there is meant.
         for names in ENDS {
             let found = names.map(column);
             if [0, 1, 3, 4].iter().all(|&k| found[k].is_some()) {
-                return Ok(Form::Segments(found));
+                return Ok(Columns::Segments(found));
             }
         }
         let at = ["x", "y", "z"].map(column);
         match LINE.iter().find_map(|name| column(name)) {
-            Some(line) if at[0].is_some() && at[1].is_some() => Ok(Form::Points { line, at }),
+            Some(line) if at[0].is_some() && at[1].is_some() => Ok(Columns::Points { line, at }),
             _ => Err("the table has neither columns x0, y0, z0, x1, y1, z1 nor line, x, y, z; name them so".into()),
         }
     }
@@ -91,15 +91,15 @@ struct Reader {
 }
 
 impl Reader {
-    fn row(&mut self, form: &Form, record: &csv::StringRecord) -> Result<(), String> {
+    fn row(&mut self, form: &Columns, record: &csv::StringRecord) -> Result<(), String> {
         match form {
-            Form::Segments(columns) => {
+            Columns::Segments(columns) => {
                 let [a, b, c, d, e, f] = columns.map(|column| cell(record, column));
                 let first = self.vertex(point(a?, b?, c?)?);
                 let second = self.vertex(point(d?, e?, f?)?);
                 self.mesh.ribs.push([first, second]);
             }
-            Form::Points { line, at } => {
+            Columns::Points { line, at } => {
                 let name = record.get(*line).unwrap_or_default();
                 if name != self.name || self.points.is_empty() {
                     self.finish();

@@ -17,12 +17,12 @@ pub(super) struct Curve {
     /// The part of the parameter's range that is used.
     pub range: [f64; 2],
     knots: Vec<f64>,
-    kind: Kind,
+    basis: Basis,
     rational: bool,
 }
 
 #[derive(Default, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum Basis {
     #[default]
     BSpline,
     Bezier,
@@ -36,9 +36,9 @@ impl Curve {
         for word in words {
             match word {
                 "rat" => curve.rational = true,
-                "bspline" => curve.kind = Kind::BSpline,
-                "bezier" => curve.kind = Kind::Bezier,
-                _ => curve.kind = Kind::Other,
+                "bspline" => curve.basis = Basis::BSpline,
+                "bezier" => curve.basis = Basis::Bezier,
+                _ => curve.basis = Basis::Other,
             }
         }
         curve
@@ -53,13 +53,13 @@ impl Curve {
         Ok(())
     }
 
-    /// The vertices of the polyline, new ones appended to `vertices`; `None` for a kind that is not read. A curve of degree 1
+    /// The vertices of the polyline, new ones appended to `vertices`; `None` for a basis that is not read. A curve of degree 1
     /// runs over its control points; others are divided, and end in their first and last control point where they meet them.
     pub fn polyline(&self, vertices: &mut Vec<Vector>, weight: impl Fn(u32) -> f64) -> Result<Option<Vec<u32>>, String> {
         if self.controls.len() < 2 {
             return Err("a curve needs at least two control points".into());
         }
-        if self.kind == Kind::Other {
+        if self.basis == Basis::Other {
             return Ok(None);
         }
         if self.degree >= self.controls.len() {
@@ -68,8 +68,8 @@ impl Curve {
         if self.degree <= 1 {
             return Ok(Some(self.controls.clone()));
         }
-        let knots = match self.kind {
-            Kind::Bezier => self.bezier_knots(),
+        let knots = match self.basis {
+            Basis::Bezier => self.bezier_knots(),
             _ => self.knots.clone(),
         };
         let weight = |v: u32| if self.rational { weight(v) } else { 1.0 };
@@ -79,7 +79,7 @@ impl Curve {
         });
         let knots = KnotVector::new(self.degree, knots).map_err(|cause| cause.to_string())?;
         let curve = BSplineCurve::new(knots.clone(), controls.collect()).map_err(|cause| cause.to_string())?;
-        let range = if self.kind == Kind::Bezier { knots.domain().into() } else { self.range };
+        let range = if self.basis == Basis::Bezier { knots.domain().into() } else { self.range };
         self.divide(&curve, range, vertices).map(Some)
     }
 

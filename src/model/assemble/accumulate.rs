@@ -1,11 +1,11 @@
-//! Adds pieces to the objective or a row, each shape compiled once.
+//! Adds summands to the objective or a row, each shape compiled once.
 
 use std::collections::HashMap;
 
 use super::expression_graph::{Lowering, end_section};
 use super::kernel_groups::{Groups, Kernels};
 use super::template::{Target, Template};
-use super::walk::{Piece, Sink, Work};
+use super::walk::{Sink, Summand, Work};
 use crate::expression::tape::TapeError;
 use crate::model::affine::Affine;
 use crate::model::elements::Label;
@@ -69,27 +69,27 @@ impl<'a> Sink<'a> for Summation<'a, '_> {
         true
     }
 
-    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError> {
-        let label = self.label(piece.rib);
+    fn summand(&mut self, summand: &Summand<'a, '_>) -> Result<(), TapeError> {
+        let label = self.label(summand.rib);
         let mut compile = |lowering: &mut Lowering| {
-            let root = piece.lower(lowering);
+            let root = summand.lower(lowering);
             Template::compile(&mut lowering.graph, root, self.kernels)
         };
         let mut target = Target { affine: &mut self.affine, groups: self.groups, row: self.row, label };
-        let Some(work) = piece.work else {
+        let Some(work) = summand.work else {
             let mut lowering = Lowering::new(self.problem);
             let template = compile(&mut lowering)?;
             self.elements += template.elements();
-            template.add(&lowering.variables, &lowering.numbers, piece.weight, self.kernels, &mut target);
+            template.add(&lowering.variables, &lowering.numbers, summand.weight, self.kernels, &mut target);
             return Ok(());
         };
-        let key = (work, piece.gathered.shape.clone());
+        let key = (work, summand.gathered.shape.clone());
         let template = match self.templates.0.entry(key) {
             std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
             std::collections::hash_map::Entry::Vacant(place) => place.insert(compile(&mut Lowering::new(self.problem))?),
         };
         self.elements += template.elements();
-        template.add(&piece.gathered.variables, &piece.gathered.numbers, piece.weight, self.kernels, &mut target);
+        template.add(&summand.gathered.variables, &summand.gathered.numbers, summand.weight, self.kernels, &mut target);
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::expression::kernel::Kernel;
 use crate::expression::tape::{Program, Tape, TapeError};
-use crate::model::elements::Group;
+use crate::model::elements::KernelGroup;
 use crate::ribs::Part;
 use crate::ribs::law::VolumeLaw;
 
@@ -41,23 +41,23 @@ impl Kernels {
 /// The groups of the objective, or of the rows, in order of first use.
 #[derive(Default)]
 pub(super) struct Groups {
-    list: Vec<Group>,
+    list: Vec<KernelGroup>,
     by_kernel: HashMap<usize, usize>,
 }
 
 impl Groups {
     /// The group of a kernel.
-    pub fn of(&mut self, kernel: usize, kernels: &Kernels) -> &mut Group {
+    pub fn of(&mut self, kernel: usize, kernels: &Kernels) -> &mut KernelGroup {
         let list = &mut self.list;
         let at = *self.by_kernel.entry(kernel).or_insert_with(|| {
-            list.push(Group::new(Arc::clone(&kernels.all[kernel])));
+            list.push(KernelGroup::new(Arc::clone(&kernels.all[kernel])));
             list.len() - 1
         });
         &mut self.list[at]
     }
 
     /// The groups, done.
-    pub fn into_list(self) -> Vec<Group> {
+    pub fn into_list(self) -> Vec<KernelGroup> {
         self.list
     }
 }

@@ -3,16 +3,16 @@
 //! | step | file | what happens |
 //! |---|---|---|
 //! | 1 | `dependence` | asked once of every definition and section: does it hold variables, does it reach over items? |
-//! | 2 | `walk` | a formula is followed to its terms: sums over items fall into pieces, each with its weight |
-//! | 3 | `template_key` | which variables and numbers of an item a piece needs, and in which slots |
+//! | 2 | `walk` | a formula is followed to its terms: sums over items fall into summands, each with its weight |
+//! | 3 | `template_key` | which variables and numbers of an item a summand needs, and in which slots |
 //! | 4 | `template_arguments` | these variables and numbers of one item; items of the same shape share a template |
-//! | 5 | `expression_graph`, `profile` | the piece becomes a graph of operations over its slots |
+//! | 5 | `expression_graph`, `profile` | the summand becomes a graph of operations over its slots |
 //! | 6 | `template` | the graph compiled: constant, affine terms, terms with a kernel |
 //! | 7 | `kernel_groups` | equal kernels once, their elements side by side |
-//! | 8 | `accumulate` | the pieces added to the objective or to a row |
+//! | 8 | `accumulate` | the summands added to the objective or to a row |
 //! | 9 | `mod` | patterns of all derivatives, and where each element's go in them |
 //!
-//! A walk hands its pieces to a `Sink`, and there are two: `accumulate` adds them up; `structure_of_rows` asks what their shape
+//! A walk hands its summands to a `Sink`, and there are two: `accumulate` adds them up; `structure_of_rows` asks what their shape
 //! proves, from which `classify` tells the class of the problem. `volumes` sums the ribs' volumes alone.
 
 mod accumulate;
@@ -223,7 +223,12 @@ fn padded(typical: &[f64], n: usize) -> Vec<f64> {
 }
 
 /// Fixes the patterns and tells every element where its derivatives go.
-fn connect(problem: &Arc<Problem>, objective: Affine, mut objective_groups: Vec<super::elements::Group>, rows: Rows) -> RibModel {
+fn connect(
+    problem: &Arc<Problem>,
+    objective: Affine,
+    mut objective_groups: Vec<super::elements::KernelGroup>,
+    rows: Rows,
+) -> RibModel {
     let (n, m) = (problem.variables.lower.len(), rows.affine.len());
     let mut row_groups = rows.groups.into_list();
     let mut positions: Vec<(u32, u32)> = Vec::new();

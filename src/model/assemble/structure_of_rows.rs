@@ -1,16 +1,16 @@
-//! What the structure of a formula proves: its pieces, one of each shape, analysed over the hull of all items' ranges.
+//! What the structure of a formula proves: its summands, one of each shape, analysed over the hull of all items' ranges.
 
 use std::collections::HashMap;
 
 use super::expression_graph::{Context, Lowering};
-use super::walk::{Piece, Sink, Walk, Work};
+use super::walk::{Sink, Summand, Walk, Work};
 use crate::expression::display::display;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::structure::{Curvature, Interval, Structure, Wanted, analyse, blame};
 use crate::expression::tape::TapeError;
 use crate::problem::{Formula, Problem};
 
-/// Pieces of one shape, and everything their inputs, data and weights range over.
+/// Summands of one shape, and everything their inputs, data and weights range over.
 struct Shape {
     graph: Graph,
     root: NodeId,
@@ -27,12 +27,12 @@ pub(super) struct RowStructure<'a> {
     problem: &'a Problem,
     shapes: Vec<Shape>,
     known: HashMap<(Work<'a>, Vec<u32>), usize>,
-    /// Pieces of the row being collected, and the most of any row.
-    pieces: usize,
-    most_pieces: usize,
+    /// Summands of the row being collected, and the most of any row.
+    summands: usize,
+    most_summands: usize,
 }
 
-/// The verdict on a sum of pieces.
+/// The verdict on a sum of summands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Bend {
     /// Of the sum in the variables.
@@ -43,14 +43,14 @@ pub(super) struct Bend {
 
 impl<'a> RowStructure<'a> {
     pub fn new(problem: &'a Problem) -> Self {
-        RowStructure { problem, shapes: Vec::new(), known: HashMap::new(), pieces: 0, most_pieces: 0 }
+        RowStructure { problem, shapes: Vec::new(), known: HashMap::new(), summands: 0, most_summands: 0 }
     }
 
     /// Adds one row's formula.
     pub fn add(&mut self, formula: &'a Formula, walk: &mut Walk<'a>, context: Context) -> Result<(), TapeError> {
-        self.pieces = 0;
+        self.summands = 0;
         let done = walk.visit(formula, 1.0, context, self);
-        self.most_pieces = self.most_pieces.max(self.pieces);
+        self.most_summands = self.most_summands.max(self.summands);
         done
     }
 
@@ -64,7 +64,7 @@ impl<'a> RowStructure<'a> {
             bend.log_curvature = joined(bend.log_curvature, log);
         }
         // A sum of several monomials is a posynomial.
-        if self.most_pieces > 1 {
+        if self.most_summands > 1 {
             bend.log_curvature = match bend.log_curvature {
                 log if log.is_convex() => Curvature::Convex,
                 _ => Curvature::Unknown,
@@ -143,25 +143,25 @@ fn joined(a: Curvature, b: Curvature) -> Curvature {
 }
 
 impl<'a> Sink<'a> for RowStructure<'a> {
-    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError> {
-        self.pieces += 1;
+    fn summand(&mut self, summand: &Summand<'a, '_>) -> Result<(), TapeError> {
+        self.summands += 1;
         let bounds = &self.problem.variables;
         let range = |&j: &u32| Interval::new(bounds.lower[j as usize], bounds.upper[j as usize]);
-        if let Some(work) = piece.work {
-            let key = (work, piece.gathered.shape.clone());
+        if let Some(work) = summand.work {
+            let key = (work, summand.gathered.shape.clone());
             if let Some(&at) = self.known.get(&key) {
-                let inputs: Vec<Interval> = piece.gathered.variables.iter().map(range).collect();
-                self.shapes[at].widen(&inputs, &piece.gathered.numbers, piece.weight);
+                let inputs: Vec<Interval> = summand.gathered.variables.iter().map(range).collect();
+                self.shapes[at].widen(&inputs, &summand.gathered.numbers, summand.weight);
                 return Ok(());
             }
             self.known.insert(key, self.shapes.len());
         }
         let mut lowering = Lowering::new(self.problem);
-        let root = piece.lower(&mut lowering);
+        let root = summand.lower(&mut lowering);
         self.shapes.push(Shape {
             inputs: lowering.variables.iter().map(range).collect(),
             data: lowering.numbers.iter().map(|&number| Interval::point(number)).collect(),
-            weight: Interval::point(piece.weight),
+            weight: Interval::point(summand.weight),
             graph: lowering.graph,
             root,
             variables: lowering.variables,

@@ -1,4 +1,4 @@
-//! Takes formulas apart: sums over items fall into pieces, one item's formula at a time.
+//! Takes formulas apart: sums over items fall into summands, one item's formula at a time.
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ use crate::problem::Problem;
 use crate::problem::formula::{Formula, Total};
 use crate::ribs::law::VolumeLaw;
 
-/// What a piece stands for; pieces of the same work and shape are alike but for their variables and numbers.
+/// What a summand stands for; summands of the same work and shape are alike but for their variables and numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Work<'p> {
     Formula(This<'p>),
@@ -39,7 +39,7 @@ impl std::hash::Hash for This<'_> {
 }
 
 /// `weight · formula` of one item.
-pub(super) struct Piece<'a, 'p> {
+pub(super) struct Summand<'a, 'p> {
     /// What it stands for; `None` where it shares nothing with others.
     pub work: Option<Work<'a>>,
     /// The item's variables, numbers and shape, where it may share.
@@ -52,8 +52,8 @@ pub(super) struct Piece<'a, 'p> {
     lower: &'p dyn Fn(&mut Lowering) -> NodeId,
 }
 
-impl Piece<'_, '_> {
-    /// The piece as a graph over local slots, which are given out in the order of `gathered`.
+impl Summand<'_, '_> {
+    /// The summand as a graph over local slots, which are given out in the order of `gathered`.
     pub fn lower(&self, lowering: &mut Lowering) -> NodeId {
         if self.work.is_some() {
             self.plan.reserve(lowering, self.item);
@@ -62,16 +62,16 @@ impl Piece<'_, '_> {
     }
 }
 
-/// What is done with the pieces.
+/// What is done with the summands.
 pub(super) trait Sink<'a> {
-    /// Takes a rib's volume in closed form; false where there is none, and its piece comes instead.
+    /// Takes a rib's volume in closed form; false where there is none, and its summand comes instead.
     fn volume(&mut self, rib: u32, law: VolumeLaw, weight: f64) -> bool {
         let _ = (rib, law, weight);
         false
     }
 
-    /// Takes a piece.
-    fn piece(&mut self, piece: &Piece<'a, '_>) -> Result<(), TapeError>;
+    /// Takes a summand.
+    fn summand(&mut self, summand: &Summand<'a, '_>) -> Result<(), TapeError>;
 }
 
 /// Walks formulas of one problem.
@@ -92,7 +92,7 @@ impl<'a> Walk<'a> {
         Walk { problem, facts, plans: HashMap::new(), gathered: TemplateArguments::default(), opened: 0 }
     }
 
-    /// Hands the pieces of `weight · formula` to the sink.
+    /// Hands the summands of `weight · formula` to the sink.
     pub fn visit(
         &mut self,
         formula: &'a Formula,
@@ -114,7 +114,7 @@ impl<'a> Walk<'a> {
         if !self.facts.reaches_items(formula) {
             let (work, problem) = (Work::Formula(This(formula)), self.problem);
             self.plans.entry(work).or_insert_with(|| TemplateKey::of(problem, formula));
-            return self.piece(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
+            return self.summand(work, weight, context.item, None, sink, &|lowering| lowering.formula(formula, context));
         }
         match formula {
             Formula::Definition(definition) if self.opened < MOST_OPENED => {
@@ -159,11 +159,19 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What cannot be taken apart is one piece that shares nothing.
+    /// What cannot be taken apart is one summand that shares nothing.
     fn whole(&mut self, formula: &'a Formula, weight: f64, context: Context, sink: &mut dyn Sink<'a>) -> Result<(), TapeError> {
         let (plan, gathered) = (TemplateKey::default(), TemplateArguments::default());
         let lower = |lowering: &mut Lowering| lowering.formula(formula, context);
-        sink.piece(&Piece { work: None, gathered: &gathered, weight, rib: None, plan: &plan, item: context.item, lower: &lower })
+        sink.summand(&Summand {
+            work: None,
+            gathered: &gathered,
+            weight,
+            rib: None,
+            plan: &plan,
+            item: context.item,
+            lower: &lower,
+        })
     }
 
     /// The value of a formula without variables.
@@ -186,11 +194,11 @@ impl<'a> Walk<'a> {
         }
         let work = Work::Volume(law);
         self.plans.entry(work).or_insert_with(TemplateKey::volume);
-        self.piece(work, weight, Item::Rib(rib), Some(rib), sink, &|lowering| lowering.own_volume(rib, law))
+        self.summand(work, weight, Item::Rib(rib), Some(rib), sink, &|lowering| lowering.own_volume(rib, law))
     }
 
-    /// Hands over a piece whose plan is known.
-    fn piece(
+    /// Hands over a summand whose plan is known.
+    fn summand(
         &mut self,
         work: Work<'a>,
         weight: f64,
@@ -202,6 +210,6 @@ impl<'a> Walk<'a> {
         let plan = &self.plans[&work];
         let shares = self.gathered.read(plan, self.problem, item);
         let work = shares.then_some(work);
-        sink.piece(&Piece { work, gathered: &self.gathered, weight, rib, plan, item, lower })
+        sink.summand(&Summand { work, gathered: &self.gathered, weight, rib, plan, item, lower })
     }
 }

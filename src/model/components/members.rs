@@ -2,7 +2,7 @@
 
 use super::Partition;
 use crate::model::element_model::ElementModel;
-use crate::model::elements::Group;
+use crate::model::elements::KernelGroup;
 
 /// Where an element is: its group (objective groups first, then row groups) and its place there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ impl Members {
             return None;
         }
         let mut offsets = vec![0; partition.len() + 1];
-        let component = |group: &Group, index| partition.component(group.inputs(index)[0]) as usize;
+        let component = |group: &KernelGroup, index| partition.component(group.inputs(index)[0]) as usize;
         for group in groups(model) {
             (0..group.len()).for_each(|index| offsets[component(group, index) + 1] += 1);
         }
@@ -48,7 +48,7 @@ impl Members {
                 *at += 1;
             }
         }
-        let positive = model.objective.coefficients.is_empty() && model.objective_groups.iter().all(Group::is_volume);
+        let positive = model.objective.coefficients.is_empty() && model.objective_groups.iter().all(KernelGroup::is_volume);
         Some(Members { partition, offsets, members, positive })
     }
 
@@ -66,12 +66,12 @@ pub(in crate::model) struct ComponentView<'a> {
 }
 
 /// All groups in the order members count them.
-pub(super) fn groups(model: &ElementModel) -> impl Iterator<Item = &Group> {
+pub(super) fn groups(model: &ElementModel) -> impl Iterator<Item = &KernelGroup> {
     model.objective_groups.iter().chain(&model.row_groups)
 }
 
 /// The group of this number.
-pub(super) fn group(model: &ElementModel, number: u32) -> &Group {
+pub(super) fn group(model: &ElementModel, number: u32) -> &KernelGroup {
     let (number, objective) = (number as usize, model.objective_groups.len());
     if number < objective { &model.objective_groups[number] } else { &model.row_groups[number - objective] }
 }

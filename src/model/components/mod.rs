@@ -18,6 +18,14 @@ use super::Model;
 use local::DenseComponent;
 use submodel::submodel;
 
+/// A model that decomposes is formulated, solved and judged component by component where it has at least so many variables: with fewer,
+/// sharing the work among threads costs what it saves.
+pub const FEWEST_VARIABLES: usize = 200;
+/// Components of at most so many variables (where they are solved or judged, rows as well) are small: dense matrices do for them.
+pub const SMALL: usize = 64;
+/// Small components a thread takes at a time.
+pub const BATCH: usize = 128;
+
 /// A model seen as a sum of small ones over disjoint variables: f(x) = constant + Σ f_k(x_k), each row within one component.
 pub trait Components: Sync {
     /// Who belongs where.

@@ -3,7 +3,7 @@
 use super::members::{self, ComponentView};
 use crate::model::affine::Affine;
 use crate::model::element_model::ElementModel;
-use crate::model::elements::Group;
+use crate::model::elements::KernelGroup;
 use crate::model::{Meta, Pattern};
 
 /// Component k; names are the parent's.
@@ -56,9 +56,9 @@ fn restricted(pattern: &Pattern, rows: &[u32], place: impl Fn(u32) -> u32, value
 }
 
 /// The component's elements, connected to its patterns: of the objective, of the rows.
-fn copied(view: ComponentView<'_>, k: usize, jacobian: &Pattern, hessian: &Pattern) -> (Vec<Group>, Vec<Group>) {
+fn copied(view: ComponentView<'_>, k: usize, jacobian: &Pattern, hessian: &Pattern) -> (Vec<KernelGroup>, Vec<KernelGroup>) {
     let partition = &view.members.partition;
-    let (mut objective, mut rows): (Vec<Group>, Vec<Group>) = (Vec::new(), Vec::new());
+    let (mut objective, mut rows): (Vec<KernelGroup>, Vec<KernelGroup>) = (Vec::new(), Vec::new());
     let mut last = u32::MAX;
     for member in view.members.of_component(k) {
         let group = members::group(view.model, member.group);

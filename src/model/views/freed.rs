@@ -1,4 +1,4 @@
-//! A model with one limit let go, minimising how far that limit has to move.
+//! A model with one limit released, minimising how far that limit has to move.
 
 use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
@@ -43,8 +43,8 @@ impl Limit {
     }
 }
 
-/// Minimise c_i(x) (or x_j) where its upper limit is let go, −c_i(x) (or −x_j) where its lower one is, subject to all others.
-/// Where an equality is let go on one side, the other stays.
+/// Minimise c_i(x) (or x_j) where its upper limit is released, −c_i(x) (or −x_j) where its lower one is, subject to all others.
+/// Where an equality is released on one side, the other stays.
 pub struct Freed<'a> {
     model: &'a dyn Model,
     meta: Meta,
@@ -95,7 +95,7 @@ impl Model for Freed<'_> {
     }
 }
 
-/// One point with the limit let go.
+/// One point with the limit released.
 struct FreedAt<'m> {
     view: &'m Freed<'m>,
     x: Vec<f64>,

@@ -3,7 +3,7 @@
 //! Every scale is a power of two, so that scaling and unscaling are exact: a bound stays that very bound, and a point
 //! goes there and back bit for bit.
 
-use crate::math::within;
+use crate::model::domain::valid_near;
 use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
 /// The factors of a [`Scaled`] model, all positive and finite.
@@ -40,38 +40,26 @@ impl Scales {
     }
 }
 
-/// Shares of a variable's room by which a point is moved inside its bounds where the model has no value at it.
-const INWARDS: [f64; 4] = [0.0, 1e-6, 1e-3, 1e-1];
-
-/// `x`, moved inwards from its bounds until the model has values and derivatives there, and the scales at it for the
-/// units that `variables` gives.
+/// `x` inside its bounds, moved into the domain where the model has no value or derivative at it, and the scales there for the units
+/// that `variables` gives.
 ///
 /// # Errors
-/// The first error met, where no such point was found.
+/// The error at `x`, where no point was found.
 pub fn valid_start(
     model: &dyn Model,
     x: &[f64],
     variables: impl Fn(&[f64]) -> Vec<f64>,
 ) -> Result<(Vec<f64>, Scales), EvaluationError> {
-    let mut first = None;
-    for share in INWARDS {
-        let x = inwards(x, share, model.meta());
-        match Scales::at(model, &x, variables(&x)) {
-            Ok(scales) => return Ok((x, scales)),
-            Err(error @ EvaluationError::Stopped(_)) => return Err(error),
-            Err(error) => first = first.or(Some(error)),
+    let mut x = x.to_vec();
+    model.meta().clamp(&mut x);
+    match Scales::at(model, &x, variables(&x)) {
+        Err(EvaluationError::Invalid { .. }) => {
+            let x = valid_near(model, &x)?;
+            let scales = Scales::at(model, &x, variables(&x))?;
+            Ok((x, scales))
         }
+        at_once => at_once.map(|scales| (x, scales)),
     }
-    Err(first.unwrap_or(EvaluationError::Invalid { term: "start".into(), cause: "no value".into() }))
-}
-
-/// `x` kept from each finite bound by this share of the room, or of the variable's size where there is more room.
-fn inwards(x: &[f64], share: f64, meta: &Meta) -> Vec<f64> {
-    let inside = |(j, &value): (usize, &f64)| {
-        let margin = share * (meta.upper[j] - meta.lower[j]).min(value.abs().max(1.0));
-        within(within(value, meta.lower[j] + margin, meta.upper[j] - margin), meta.lower[j], meta.upper[j])
-    };
-    x.iter().enumerate().map(inside).collect()
 }
 
 fn row_scale(meta: &Meta, row: usize, jacobian: &[f64], variables: &[f64]) -> f64 {

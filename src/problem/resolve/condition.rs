@@ -12,13 +12,13 @@ use crate::sections;
 /// A `where` with its names looked up.
 #[derive(Debug)]
 #[allow(missing_docs)]
-pub enum Filter {
+pub enum ItemFilter {
     Numbers(Comparison, Formula, Formula),
     /// Only equal and not equal.
     Texts(Comparison, Text, Text),
-    And(Box<Filter>, Box<Filter>),
-    Or(Box<Filter>, Box<Filter>),
-    Not(Box<Filter>),
+    And(Box<ItemFilter>, Box<ItemFilter>),
+    Or(Box<ItemFilter>, Box<ItemFilter>),
+    Not(Box<ItemFilter>),
 }
 
 /// A text of an item.
@@ -34,37 +34,37 @@ pub enum Text {
 
 impl Resolver<'_, '_> {
     /// Looks up the names of a condition in the resolver's scope.
-    pub fn condition(&mut self, condition: &Condition) -> Option<Filter> {
+    pub fn condition(&mut self, condition: &Condition) -> Option<ItemFilter> {
         Some(match condition {
             Condition::Compare(comparison, left, right) => self.comparison(*comparison, left, right)?,
             Condition::And(left, right) => {
                 let (left, right) = (self.condition(left), self.condition(right));
-                Filter::And(Box::new(left?), Box::new(right?))
+                ItemFilter::And(Box::new(left?), Box::new(right?))
             }
             Condition::Or(left, right) => {
                 let (left, right) = (self.condition(left), self.condition(right));
-                Filter::Or(Box::new(left?), Box::new(right?))
+                ItemFilter::Or(Box::new(left?), Box::new(right?))
             }
-            Condition::Not(inner) => Filter::Not(Box::new(self.condition(inner)?)),
+            Condition::Not(inner) => ItemFilter::Not(Box::new(self.condition(inner)?)),
         })
     }
 
-    fn comparison(&mut self, comparison: Comparison, left: &Ast, right: &Ast) -> Option<Filter> {
+    fn comparison(&mut self, comparison: Comparison, left: &Ast, right: &Ast) -> Option<ItemFilter> {
         match (self.text(left), self.text(right)) {
             (Some(left_text), Some(right_text)) => match comparison {
-                Comparison::Equal | Comparison::NotEqual => Some(Filter::Texts(comparison, left_text, right_text)),
+                Comparison::Equal | Comparison::NotEqual => Some(ItemFilter::Texts(comparison, left_text, right_text)),
                 _ => self.mistake(left.span, "texts are only equal or not", Some("compare with == or !=".into())),
             },
             (Some(_), None) => self.mixed(right.span),
             (None, Some(_)) => self.mixed(left.span),
             (None, None) => {
                 let (left, right) = (self.choice(left), self.choice(right));
-                Some(Filter::Numbers(comparison, left?, right?))
+                Some(ItemFilter::Numbers(comparison, left?, right?))
             }
         }
     }
 
-    fn mixed(&mut self, span: Span) -> Option<Filter> {
+    fn mixed(&mut self, span: Span) -> Option<ItemFilter> {
         self.mistake(span, "a number is held against a text", Some("texts stand in quotes, numbers do not".into()))
     }
 
@@ -111,7 +111,7 @@ impl Resolver<'_, '_> {
     }
 }
 
-impl Filter {
+impl ItemFilter {
     /// Help where an item cannot be judged.
     pub const REMEDY: &'static str = "fill the cell, or leave the item out by its name or another datum first";
 
@@ -136,17 +136,17 @@ impl Filter {
     /// Whether it holds; `None` where a number is missing. `and` and `or` look no further than they must.
     fn holds(&self, problem: &Problem, item: Item) -> Option<bool> {
         Some(match self {
-            Filter::Numbers(comparison, left, right) => {
+            ItemFilter::Numbers(comparison, left, right) => {
                 let evaluation = Evaluation::at_start(problem);
                 let (left, right) = (evaluation.value(left, item)?, evaluation.value(right, item)?);
                 compare(*comparison, left, right)
             }
-            Filter::Texts(comparison, left, right) => {
+            ItemFilter::Texts(comparison, left, right) => {
                 (left.of(problem, item) == right.of(problem, item)) == (*comparison == Comparison::Equal)
             }
-            Filter::And(left, right) => left.holds(problem, item)? && right.holds(problem, item)?,
-            Filter::Or(left, right) => left.holds(problem, item)? || right.holds(problem, item)?,
-            Filter::Not(inner) => !inner.holds(problem, item)?,
+            ItemFilter::And(left, right) => left.holds(problem, item)? && right.holds(problem, item)?,
+            ItemFilter::Or(left, right) => left.holds(problem, item)? || right.holds(problem, item)?,
+            ItemFilter::Not(inner) => !inner.holds(problem, item)?,
         })
     }
 }

@@ -16,7 +16,7 @@ use crate::expression::operators::{Binary, Fold, Unary};
 pub use world::{Chosen, Open, Remark, Report, Stage, World};
 
 pub use super::item_scope::ItemScope;
-pub use condition::Filter;
+pub use condition::ItemFilter;
 
 /// One number's formula, or an array of them.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::condition::Filter;
+use super::condition::ItemFilter;
 use super::word;
 use super::{ItemScope, Resolver, Stage};
 use crate::expression::Span;
@@ -62,7 +62,7 @@ impl Resolver<'_, '_> {
         let filter = Resolver { scope: Some(scope), item: None, outer, ..self.reborrowed() }.condition(condition)?;
         match filter.choose(self.world.problem, scope) {
             Ok(list) => Some(Arc::new(list)),
-            Err(message) => self.mistake(span, message, Some(Filter::REMEDY.into())),
+            Err(message) => self.mistake(span, message, Some(ItemFilter::REMEDY.into())),
         }
     }
 

@@ -14,7 +14,7 @@ use serde::ser::{SerializeMap, Serializer};
 use super::{Findings, Volumes};
 use conflict::ConflictPart;
 pub use mistakes::{Mistake, write_mistakes};
-use point::{BoundsPart, ConstraintsPart, Point, RibsPart};
+use point::{BoundsPart, ConstraintsPart, NamedValues, RibsPart};
 use solutions::{AgreementPart, MinimaPart, SolutionsPart, scope};
 
 /// The `format` of the file.
@@ -56,7 +56,7 @@ impl Serialize for ResultFile<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (findings, mut map) = (self.0, serializer.serialize_map(None)?);
         Head(findings).entries(&mut map)?;
-        map.serialize_entry("variables", &Point { findings, x: &findings.outcome.x })?;
+        map.serialize_entry("variables", &NamedValues { findings, x: &findings.outcome.x })?;
         map.serialize_entry("bounds", &BoundsPart(findings))?;
         map.serialize_entry("constraints", &ConstraintsPart(findings))?;
         Tail(findings).entries(&mut map)?;
@@ -104,7 +104,7 @@ impl Tail<'_> {
         map.serialize_entry("solutions", &SolutionsPart(findings))?;
         map.serialize_entry("agreement", &outcome.agreement.map(AgreementPart::from))?;
         map.serialize_entry("conflict", &ConflictPart::of(findings))?;
-        map.serialize_entry("direction", &outcome.direction.as_ref().map(|x| Point { findings, x }))?;
+        map.serialize_entry("direction", &outcome.direction.as_ref().map(|x| NamedValues { findings, x }))?;
         map.serialize_entry("runaway", &names(&outcome.runaway, |j| findings.model.variable_name(j)))?;
         map.serialize_entry("minima", &MinimaPart(findings))?;
         map.serialize_entry("warnings", &findings.about.warnings)?;

@@ -8,14 +8,14 @@ use super::super::utilisation::{Place, Table};
 use super::super::{Findings, Held, blocks};
 
 /// Values by variable name.
-pub(super) struct Point<'a> {
+pub(super) struct NamedValues<'a> {
     /// For the names.
     pub findings: &'a Findings<'a>,
     /// The values.
     pub x: &'a [f64],
 }
 
-impl Serialize for Point<'_> {
+impl Serialize for NamedValues<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.x.iter().enumerate().map(|(j, value)| (self.findings.model.variable_name(j), value)))
     }

@@ -3,9 +3,9 @@
 use serde::{Serialize, Serializer};
 
 use super::super::Findings;
-use super::point::Point;
+use super::point::NamedValues;
 use crate::backends::Termination;
-use crate::certificate::Scope;
+use crate::certificate::Extent;
 use crate::crosscheck::{Agreement, Answer};
 
 /// The word for why a run stopped.
@@ -20,10 +20,10 @@ fn termination(termination: Termination) -> &'static str {
 }
 
 /// The word for how far a certificate reaches.
-pub(super) fn scope(scope: Scope) -> &'static str {
+pub(super) fn scope(scope: Extent) -> &'static str {
     match scope {
-        Scope::Global => "global",
-        Scope::Local => "local",
+        Extent::Global => "global",
+        Extent::Local => "local",
     }
 }
 
@@ -110,13 +110,13 @@ impl Serialize for MinimaPart<'_> {
         struct MinimumPart<'a> {
             objective: f64,
             count: usize,
-            variables: Point<'a>,
+            variables: NamedValues<'a>,
         }
         let findings = self.0;
         serializer.collect_seq(findings.outcome.minima.iter().map(|minimum| MinimumPart {
             objective: findings.in_users_sense(minimum.objective),
             count: minimum.count,
-            variables: Point { findings, x: &minimum.x },
+            variables: NamedValues { findings, x: &minimum.x },
         }))
     }
 }

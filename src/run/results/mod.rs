@@ -190,7 +190,7 @@ impl Writer {
 
 /// Names of the logs any of them leaves.
 fn logs() -> impl Iterator<Item = String> {
-    crate::problem::settings::BACKENDS.iter().map(|backend| log_name(backend))
+    crate::problem::settings::BACKENDS.iter().map(|backend| log_name(backend.name))
 }
 
 /// `log-nlopt.csv`

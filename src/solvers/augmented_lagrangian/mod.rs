@@ -14,7 +14,7 @@ mod steihaug;
 mod trust_region;
 
 use self::faces::minimise;
-use super::{Conclusion, Point, Progress, Solver, Why};
+use super::{Conclusion, Progress, RankedPoint, Solver, Why};
 use crate::model::views::augmented::{Augmented, MOST_PRODUCTS, needed_products};
 use crate::model::views::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
@@ -57,7 +57,7 @@ pub struct AugmentedLagrangian<'a> {
 /// The point with the smallest residual.
 struct Best {
     residual: f64,
-    point: Point,
+    point: RankedPoint,
 }
 
 /// The units of the subproblems at x.
@@ -116,7 +116,7 @@ impl<'a> AugmentedLagrangian<'a> {
     }
 
     /// The current point as the user knows it.
-    fn point(&self, optimality: f64) -> Result<Point, EvaluationError> {
+    fn point(&self, optimality: f64) -> Result<RankedPoint, EvaluationError> {
         let (meta, scales) = (self.scaled().meta(), self.scaled().scales());
         let (mut relative_violation, mut feasibility) = (0.0_f64, 0.0_f64);
         for (i, row) in self.rows()?.into_iter().enumerate() {
@@ -124,7 +124,7 @@ impl<'a> AugmentedLagrangian<'a> {
             relative_violation = relative_violation.max(violation);
             feasibility = feasibility.max(violation * scales.rows[i]);
         }
-        Ok(Point {
+        Ok(RankedPoint {
             x: self.scaled().unscaled_point(&self.x),
             objective: self.scaled().objective(&self.x)? * scales.objective,
             relative_violation,
@@ -135,7 +135,7 @@ impl<'a> AugmentedLagrangian<'a> {
     }
 
     /// One subproblem, then multipliers, penalty and tolerance for the next. Returns the new point and the step's length.
-    fn iterate(&mut self) -> Result<(Point, f64), EvaluationError> {
+    fn iterate(&mut self) -> Result<(RankedPoint, f64), EvaluationError> {
         let before = self.scaled().unscaled_point(&self.x);
         self.subproblem.set(&self.multipliers, self.penalty);
         let minimum = minimise(&self.subproblem, &self.x, self.tolerance)?;
@@ -168,7 +168,7 @@ impl<'a> AugmentedLagrangian<'a> {
         Ok(())
     }
 
-    fn remember(&mut self, point: &Point, residual: f64) {
+    fn remember(&mut self, point: &RankedPoint, residual: f64) {
         self.idle += 1;
         self.passed = self.passed.map(|iterations| iterations + 1);
         if residual < PARAMETERS.worthwhile * self.idle_best {

@@ -1,4 +1,4 @@
-//! The iterates of all components, one after another in one piece of memory.
+//! The iterates of all components, one after another in one block of memory.
 
 use crate::model::Meta;
 use crate::model::components::Partition;
@@ -60,7 +60,7 @@ impl Header {
 }
 
 /// One component's iterate, scaled: n variables, then m slacks, with bounds' multipliers, and the rows' own.
-pub(super) struct Piece<'a> {
+pub(super) struct ComponentIterate<'a> {
     pub component: usize,
     pub header: &'a mut Header,
     /// Length n + m.
@@ -121,8 +121,8 @@ impl Arena {
     }
 
     /// The components in one of the wanted phases, in order.
-    pub fn pieces(&mut self, partition: &Partition, wanted: impl Fn(Phase) -> bool) -> Vec<Piece<'_>> {
-        let mut pieces = Vec::new();
+    pub fn iterates(&mut self, partition: &Partition, wanted: impl Fn(Phase) -> bool) -> Vec<ComponentIterate<'_>> {
+        let mut iterates = Vec::new();
         let mut rest = self.values.as_mut_slice();
         for (component, header) in self.headers.iter_mut().enumerate() {
             let (size, m) = sizes(partition, component);
@@ -133,9 +133,9 @@ impl Arena {
             let (row_scale, after) = after.split_at_mut(m);
             rest = after;
             if wanted(header.phase) {
-                pieces.push(Piece { component, header, w, z_lower, z_upper, y, row_scale });
+                iterates.push(ComponentIterate { component, header, w, z_lower, z_upper, y, row_scale });
             }
         }
-        pieces
+        iterates
     }
 }

@@ -3,27 +3,20 @@
 //! Each step solves the KKT system [W Aᵀ; A −δI] over the free variables by P = W + AᵀA/ε, positive definite where (for small ε)
 //! the minimum is strict, and the Schur complement A·P⁻¹·Aᵀ + δI. δ tames dependent limits without moving the fixed point.
 
-use super::arena::Piece;
+use super::arena::ComponentIterate;
 use super::barrier::distances;
 use super::frame::Frame;
 use super::parameters::PARAMETERS;
 use crate::linear_algebra::cholesky;
 use crate::math::within;
-
-/// Where a component of w rests.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Side {
-    Free,
-    Lower,
-    Upper,
-}
+use crate::solvers::barrier::BoundState;
 
 /// A thread's room.
 #[derive(Default)]
 pub(super) struct Crossover {
     /// The residual reached.
     pub error: f64,
-    sides: Vec<Side>,
+    sides: Vec<BoundState>,
     free: Vec<usize>,
     held: Vec<usize>,
     w: Vec<f64>,
@@ -38,55 +31,55 @@ pub(super) struct Crossover {
 }
 
 impl Crossover {
-    /// Tries the active set the piece's multipliers suggest. `true`: the piece is at a minimum now, to rounding.
-    pub fn attempt(&mut self, frame: &mut Frame<'_>, piece: &mut Piece<'_>) -> bool {
-        self.guess(frame, piece);
-        if !self.converge(frame, piece) || !self.is_inside(frame) || !self.has_right_signs(frame) {
+    /// Tries the active set the component's multipliers suggest. `true`: the iterate is at a minimum now, to rounding.
+    pub fn attempt(&mut self, frame: &mut Frame<'_>, iterate: &mut ComponentIterate<'_>) -> bool {
+        self.guess(frame, iterate);
+        if !self.converge(frame, iterate) || !self.is_inside(frame) || !self.has_right_signs(frame) {
             return false;
         }
-        piece.header.step = piece.w.iter().zip(&self.w).take(frame.n).map(|(old, new)| (new - old).powi(2)).sum();
-        piece.w.copy_from_slice(&self.w);
-        piece.y.copy_from_slice(&self.y);
+        iterate.header.step = iterate.w.iter().zip(&self.w).take(frame.n).map(|(old, new)| (new - old).powi(2)).sum();
+        iterate.w.copy_from_slice(&self.w);
+        iterate.y.copy_from_slice(&self.y);
         true
     }
 
-    fn guess(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+    fn guess(&mut self, frame: &Frame<'_>, iterate: &ComponentIterate<'_>) {
         let side = |at: usize| {
             let (lower, upper) = (frame.lower[at], frame.upper[at]);
-            let (below, above) = distances(piece.w[at], lower, upper);
-            match (lower == upper || piece.z_lower[at] > below, piece.z_upper[at] > above) {
-                (true, _) => Side::Lower,
-                (_, true) => Side::Upper,
-                _ => Side::Free,
+            let (below, above) = distances(iterate.w[at], lower, upper);
+            match (lower == upper || iterate.z_lower[at] > below, iterate.z_upper[at] > above) {
+                (true, _) => BoundState::Lower,
+                (_, true) => BoundState::Upper,
+                _ => BoundState::Free,
             }
         };
         self.sides.clear();
-        self.sides.extend((0..piece.w.len()).map(side));
+        self.sides.extend((0..iterate.w.len()).map(side));
         self.free.clear();
-        self.free.extend((0..frame.n).filter(|&j| self.sides[j] == Side::Free));
+        self.free.extend((0..frame.n).filter(|&j| self.sides[j] == BoundState::Free));
         self.held.clear();
-        self.held.extend((0..frame.m).filter(|&i| self.sides[frame.n + i] != Side::Free));
+        self.held.extend((0..frame.m).filter(|&i| self.sides[frame.n + i] != BoundState::Free));
         self.w.clear();
-        self.w.extend((0..piece.w.len()).map(|at| match self.sides[at] {
-            Side::Free => piece.w[at],
-            Side::Lower => frame.lower[at],
-            Side::Upper => frame.upper[at],
+        self.w.extend((0..iterate.w.len()).map(|at| match self.sides[at] {
+            BoundState::Free => iterate.w[at],
+            BoundState::Lower => frame.lower[at],
+            BoundState::Upper => frame.upper[at],
         }));
         self.y.clear();
-        self.y.extend((0..frame.m).map(|i| if self.sides[frame.n + i] == Side::Free { 0.0 } else { piece.y[i] }));
+        self.y.extend((0..frame.m).map(|i| if self.sides[frame.n + i] == BoundState::Free { 0.0 } else { iterate.y[i] }));
     }
 
-    fn converge(&mut self, frame: &mut Frame<'_>, piece: &mut Piece<'_>) -> bool {
+    fn converge(&mut self, frame: &mut Frame<'_>, iterate: &mut ComponentIterate<'_>) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..PARAMETERS.crossover_steps {
-            if !frame.first_order(&self.w, piece.header, piece.row_scale) {
+            if !frame.first_order(&self.w, iterate.header, iterate.row_scale) {
                 return false;
             }
             self.error = self.assess(frame);
             if self.error <= PARAMETERS.exact || (self.error <= PARAMETERS.accepted && self.error > 0.5 * last) {
-                return self.free.is_empty() || last < f64::INFINITY || self.bends_up(frame, piece);
+                return self.free.is_empty() || last < f64::INFINITY || self.has_positive_curvature(frame, iterate);
             }
-            if self.error.is_nan() || self.error >= last || !self.bends_up(frame, piece) {
+            if self.error.is_nan() || self.error >= last || !self.has_positive_curvature(frame, iterate) {
                 return false;
             }
             last = self.error;
@@ -112,8 +105,8 @@ impl Crossover {
     }
 
     /// Factorises W + AᵀA/ε over the free variables.
-    fn bends_up(&mut self, frame: &mut Frame<'_>, piece: &Piece<'_>) -> bool {
-        if !frame.second_order(&self.y, piece.header, piece.row_scale) {
+    fn has_positive_curvature(&mut self, frame: &mut Frame<'_>, iterate: &ComponentIterate<'_>) -> bool {
+        if !frame.second_order(&self.y, iterate.header, iterate.row_scale) {
             return false;
         }
         let (n, size) = (frame.n, self.free.len());
@@ -171,7 +164,7 @@ impl Crossover {
 
     /// Whether the limits left out hold, rows within rounding; slacks of free rows follow their rows.
     fn is_inside(&mut self, frame: &Frame<'_>) -> bool {
-        for i in (0..frame.m).filter(|&i| self.sides[frame.n + i] == Side::Free) {
+        for i in (0..frame.m).filter(|&i| self.sides[frame.n + i] == BoundState::Free) {
             let (row, lower, upper) = (frame.rows[i], frame.lower[frame.n + i], frame.upper[frame.n + i]);
             let inside = within(row, lower, upper);
             self.w[frame.n + i] = if (row - inside).abs() <= PARAMETERS.accepted * row.abs().max(1.0) { inside } else { row };
@@ -186,14 +179,14 @@ impl Crossover {
             let pull: f64 = self.held.iter().map(|&i| self.y[i] * frame.jacobian[i * n + j]).sum();
             let slope = frame.gradient[j] + pull;
             match self.sides[j] {
-                Side::Free => true,
+                BoundState::Free => true,
                 _ if frame.lower[j] == frame.upper[j] => true,
-                Side::Lower => slope >= -PARAMETERS.no_multiplier,
-                Side::Upper => slope <= PARAMETERS.no_multiplier,
+                BoundState::Lower => slope >= -PARAMETERS.no_multiplier,
+                BoundState::Upper => slope <= PARAMETERS.no_multiplier,
             }
         };
         let row = |&i: &usize| match self.sides[n + i] {
-            Side::Upper => self.y[i] >= -PARAMETERS.no_multiplier,
+            BoundState::Upper => self.y[i] >= -PARAMETERS.no_multiplier,
             _ => self.y[i] <= PARAMETERS.no_multiplier,
         };
         (0..n).all(bound) && self.held.iter().all(row)

@@ -7,14 +7,10 @@
 mod answer;
 mod evaluation;
 
-use super::arena::Piece;
+use super::arena::ComponentIterate;
+use super::parameters::PARAMETERS;
 use crate::model::Meta;
 use crate::model::components::{Components, Local, Partition};
-
-/// Scaled multipliers smaller than this hold nothing.
-const IDLE: f64 = 1e-10;
-/// Row gradients smaller than this are no scale.
-const FLAT: f64 = 1e-12;
 
 /// The component a thread is at.
 pub(super) struct Frame<'m> {
@@ -99,9 +95,9 @@ impl<'m> Frame<'m> {
         }
     }
 
-    /// Turns to the component of this piece.
-    pub fn select(&mut self, piece: &Piece<'_>) {
-        self.scales_of(piece);
+    /// Turns to the component of this iterate.
+    pub fn select(&mut self, iterate: &ComponentIterate<'_>) {
+        self.scales_of(iterate);
         let (n, m) = (self.n, self.m);
         for room in [&mut self.x, &mut self.slopes, &mut self.gradient] {
             room.resize(n, 0.0);
@@ -111,12 +107,12 @@ impl<'m> Frame<'m> {
         }
         self.jacobian.resize(m * n, 0.0);
         self.hessian.resize(n * n, 0.0);
-        self.local.select(piece.component);
+        self.local.select(iterate.component);
     }
 
-    /// Scales and bounds of the component of this piece, nothing more.
-    pub fn scales_of(&mut self, piece: &Piece<'_>) {
-        let (variables, rows) = (self.partition.variables(piece.component), self.partition.rows(piece.component));
+    /// Scales and bounds of the component of this iterate, nothing more.
+    pub fn scales_of(&mut self, iterate: &ComponentIterate<'_>) {
+        let (variables, rows) = (self.partition.variables(iterate.component), self.partition.rows(iterate.component));
         (self.n, self.m) = (variables.len(), rows.len());
         let (meta, start) = (self.meta, self.start);
         self.d.clear();
@@ -130,7 +126,7 @@ impl<'m> Frame<'m> {
             self.upper.push(inward(d, upper));
         }
         self.logarithmic_rows.clear();
-        for (&i, scale) in rows.iter().zip(&*piece.row_scale) {
+        for (&i, scale) in rows.iter().zip(&*iterate.row_scale) {
             let (lower, upper) = (meta.row_lower[i as usize], meta.row_upper[i as usize]);
             let positive = upper > 0.0 && (lower > 0.0 || (lower == f64::NEG_INFINITY && upper < f64::INFINITY));
             let logarithmic = positive && !meta.row_is_linear[i as usize];
@@ -152,15 +148,15 @@ impl<'m> Frame<'m> {
     }
 
     /// Scales of objective and rows by the gradients evaluated last (with all scales 1, and no logarithm of the objective).
-    pub fn choose_scales(&mut self, piece: &mut Piece<'_>) {
+    pub fn choose_scales(&mut self, iterate: &mut ComponentIterate<'_>) {
         let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let size = largest(&self.gradient) / if piece.header.logarithmic { self.objective } else { 1.0 };
-        piece.header.objective_scale = if size > 0.0 { 1.0 / size } else { 1.0 };
-        for (i, scale) in piece.row_scale.iter_mut().enumerate() {
+        let size = largest(&self.gradient) / if iterate.header.logarithmic { self.objective } else { 1.0 };
+        iterate.header.objective_scale = if size > 0.0 { 1.0 / size } else { 1.0 };
+        for (i, scale) in iterate.row_scale.iter_mut().enumerate() {
             let slope = largest(&self.jacobian[i * self.n..(i + 1) * self.n]);
             let (lower, upper) = (self.lower[self.n + i], self.upper[self.n + i]);
             let limit = [lower, upper].into_iter().filter(|limit| limit.is_finite()).fold(0.0, |most: f64, l| most.max(l.abs()));
-            let size = if slope > FLAT * limit { slope } else { limit };
+            let size = if slope > PARAMETERS.level * limit { slope } else { limit };
             *scale = if size > 0.0 { 1.0 / size } else { 1.0 };
             self.lower[self.n + i] = lower * *scale;
             self.upper[self.n + i] = upper * *scale;

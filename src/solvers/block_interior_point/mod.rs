@@ -19,13 +19,15 @@ mod newton;
 mod parameters;
 mod search;
 mod step;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 
-use super::{Conclusion, Point, Progress, Solver, Why, interior_point};
+use super::{Conclusion, Progress, RankedPoint, Solver, Why, interior_point};
 use crate::model::components::Components;
 use crate::model::{Budget, EvaluationError, Evaluator, Model};
-use arena::{Arena, Header, Phase, Piece};
+use arena::{Arena, ComponentIterate, Header, Phase};
 use frame::Frame;
 use parameters::PARAMETERS;
 use step::Stepper;
@@ -38,7 +40,7 @@ pub fn decomposes(model: &dyn Model) -> Option<Box<dyn Components + '_>> {
 /// All components side by side.
 pub struct BlockInteriorPoint<'a> {
     model: &'a Evaluator<'a>,
-    pieces: &'a dyn Components,
+    components: &'a dyn Components,
     start: &'a [f64],
     multipliers: Option<&'a [f64]>,
     arena: Arena,
@@ -46,26 +48,31 @@ pub struct BlockInteriorPoint<'a> {
 
 impl<'a> BlockInteriorPoint<'a> {
     /// From `start`, an earlier answer where there are multipliers.
-    pub fn new(model: &'a Evaluator<'a>, pieces: &'a dyn Components, start: &'a [f64], multipliers: Option<&'a [f64]>) -> Self {
-        let arena = Arena::new(pieces.partition(), model.meta(), PARAMETERS.largest);
-        BlockInteriorPoint { model, pieces, start, multipliers, arena }
+    pub fn new(
+        model: &'a Evaluator<'a>,
+        components: &'a dyn Components,
+        start: &'a [f64],
+        multipliers: Option<&'a [f64]>,
+    ) -> Self {
+        let arena = Arena::new(components.partition(), model.meta(), PARAMETERS.largest);
+        BlockInteriorPoint { model, components, start, multipliers, arena }
     }
 
     /// Some steps of every component under way; hard ones are solved to their end. A budget that runs out leaves the rest.
     fn advance(&mut self) {
         let model = self.model;
-        let (meta, pieces, start, multipliers) = (model.meta(), self.pieces, self.start, self.multipliers);
-        let stepper = || Stepper::new(Frame::new(pieces, meta, start), multipliers);
-        let mut running = self.arena.pieces(pieces.partition(), |phase| matches!(phase, Phase::New | Phase::Running));
+        let (meta, components, start, multipliers) = (model.meta(), self.components, self.start, self.multipliers);
+        let stepper = || Stepper::new(Frame::new(components, meta, start), multipliers);
+        let mut running = self.arena.iterates(components.partition(), |phase| matches!(phase, Phase::New | Phase::Running));
         let may_go_on = || model.budget().check(model.evaluations()).is_ok();
         running.par_chunks_mut(PARAMETERS.batch).for_each_init(stepper, |stepper, batch| {
             if may_go_on() {
-                batch.iter_mut().for_each(|piece| stepper.advance(piece, PARAMETERS.steps));
+                batch.iter_mut().for_each(|iterate| stepper.advance(iterate, PARAMETERS.steps));
             }
         });
-        let mut hard = self.arena.pieces(pieces.partition(), |phase| phase == Phase::Hard);
+        let mut hard = self.arena.iterates(components.partition(), |phase| phase == Phase::Hard);
         let budget = Budget { max_evaluations: u64::MAX, ..*model.budget() };
-        hard.par_iter_mut().for_each(|piece| by_sparse_interior_point(pieces, start, stepper().frame, piece, budget));
+        hard.par_iter_mut().for_each(|iterate| by_sparse_interior_point(components, start, stepper().frame, iterate, budget));
         let evaluations = self.arena.headers().iter().map(|header| u64::from(header.evaluations)).max();
         model.count(evaluations.unwrap_or(0));
     }
@@ -73,21 +80,21 @@ impl<'a> BlockInteriorPoint<'a> {
     /// x of all components.
     fn x(&mut self) -> Vec<f64> {
         let mut x = self.start.to_vec();
-        let mut frame = Frame::new(self.pieces, self.model.meta(), self.start);
-        for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
-            frame.scales_of(&piece);
-            frame.unscaled(&piece).for_each(|(j, value)| x[j as usize] = value);
+        let mut frame = Frame::new(self.components, self.model.meta(), self.start);
+        for iterate in self.arena.iterates(self.components.partition(), |phase| phase != Phase::New) {
+            frame.scales_of(&iterate);
+            frame.unscaled(&iterate).for_each(|(j, value)| x[j as usize] = value);
         }
         x
     }
 
     /// The current iterate without x: putting it together at every iteration would cost more than the iteration.
-    fn progress(&self) -> Point {
+    fn progress(&self) -> RankedPoint {
         let headers = self.arena.headers();
         let worst = |value: fn(&Header) -> f64| headers.iter().map(value).fold(0.0, f64::max);
-        Point {
+        RankedPoint {
             x: Vec::new(),
-            objective: self.pieces.constant() + headers.iter().map(|header| header.objective).sum::<f64>(),
+            objective: self.components.constant() + headers.iter().map(|header| header.objective).sum::<f64>(),
             relative_violation: worst(|header| header.relative_violation),
             feasibility: worst(|header| header.violation),
             optimality: worst(|header| header.error),
@@ -95,14 +102,14 @@ impl<'a> BlockInteriorPoint<'a> {
         }
     }
 
-    fn answer(&mut self) -> Point {
+    fn answer(&mut self) -> RankedPoint {
         let mut multipliers = vec![0.0; self.model.meta().rows()];
-        let mut frame = Frame::new(self.pieces, self.model.meta(), self.start);
-        for piece in self.arena.pieces(self.pieces.partition(), |phase| phase != Phase::New) {
-            frame.scales_of(&piece);
-            frame.multipliers(&piece).for_each(|(i, y)| multipliers[i as usize] = y);
+        let mut frame = Frame::new(self.components, self.model.meta(), self.start);
+        for iterate in self.arena.iterates(self.components.partition(), |phase| phase != Phase::New) {
+            frame.scales_of(&iterate);
+            frame.multipliers(&iterate).for_each(|(i, y)| multipliers[i as usize] = y);
         }
-        Point { x: self.x(), multipliers: Some(multipliers), ..self.progress() }
+        RankedPoint { x: self.x(), multipliers: Some(multipliers), ..self.progress() }
     }
 
     fn step_norm(&self) -> f64 {
@@ -137,29 +144,29 @@ impl<'a> BlockInteriorPoint<'a> {
 
 /// Solves one component as a model of its own.
 fn by_sparse_interior_point(
-    pieces: &dyn Components,
+    components: &dyn Components,
     start: &[f64],
     mut frame: Frame<'_>,
-    piece: &mut Piece<'_>,
+    iterate: &mut ComponentIterate<'_>,
     budget: Budget<'_>,
 ) {
-    let model = pieces.model(piece.component);
+    let model = components.model(iterate.component);
     let evaluator = Evaluator::new(model.as_ref(), budget);
-    let variables = pieces.partition().variables(piece.component);
+    let variables = components.partition().variables(iterate.component);
     let start: Vec<f64> = variables.iter().map(|&j| start[j as usize]).collect();
     let solved = interior_point::solve_alone(&evaluator, &start);
-    if piece.row_scale.contains(&0.0) {
-        piece.row_scale.fill(1.0);
+    if iterate.row_scale.contains(&0.0) {
+        iterate.row_scale.fill(1.0);
     }
-    frame.select(piece);
-    let header = &mut piece.header;
+    frame.select(iterate);
+    let header = &mut iterate.header;
     header.evaluations = u32::try_from(evaluator.evaluations()).unwrap_or(u32::MAX);
     header.phase = if solved.is_some() { Phase::Solved } else { Phase::Failed };
     let Some(point) = solved else { return };
     (header.objective, header.violation, header.relative_violation) =
         (point.objective, point.feasibility, point.relative_violation);
     header.error = point.optimality;
-    frame.take(piece, &point.x, point.multipliers.as_deref().unwrap_or_default());
+    frame.take(iterate, &point.x, point.multipliers.as_deref().unwrap_or_default());
 }
 
 impl Solver for BlockInteriorPoint<'_> {

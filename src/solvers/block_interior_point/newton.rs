@@ -5,7 +5,7 @@
 //! ```
 //! The matrix is positive definite exactly where the whole KKT matrix has the inertia of a minimum: there are no equalities.
 
-use super::arena::Piece;
+use super::arena::ComponentIterate;
 use super::barrier::{distances, force};
 use super::frame::Frame;
 use super::parameters::PARAMETERS;
@@ -28,33 +28,33 @@ pub(super) struct Newton {
 }
 
 impl Newton {
-    /// Computes the step at the piece's iterate, derivatives being in the frame. `false`: no regularisation helps.
-    pub fn compute(&mut self, frame: &Frame<'_>, piece: &mut Piece<'_>) -> bool {
-        self.barrier_terms(frame, piece);
+    /// Computes the step at the component's iterate, derivatives being in the frame. `false`: no regularisation helps.
+    pub fn compute(&mut self, frame: &Frame<'_>, iterate: &mut ComponentIterate<'_>) -> bool {
+        self.barrier_terms(frame, iterate);
         self.condense(frame);
-        let last = piece.header.regularisation;
+        let last = iterate.header.regularisation;
         let mut delta = 0.0;
         // Where the matrix is all but singular the step is endless, and of no more use than where it is indefinite.
-        while !(self.factorise(frame.n, delta) && self.solve(frame, piece)) {
+        while !(self.factorise(frame.n, delta) && self.solve(frame, iterate)) {
             delta = if delta == 0.0 { PARAMETERS.inertia.begin(last) } else { delta * PARAMETERS.inertia.growth(last) };
             if delta > PARAMETERS.inertia.largest {
                 return false;
             }
-            piece.header.regularisation = delta;
+            iterate.header.regularisation = delta;
         }
-        self.multiplier_steps(frame, piece);
+        self.multiplier_steps(frame, iterate);
         true
     }
 
-    fn barrier_terms(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+    fn barrier_terms(&mut self, frame: &Frame<'_>, iterate: &ComponentIterate<'_>) {
         self.slope.clear();
         self.sigma.clear();
-        for (at, &w) in piece.w.iter().enumerate() {
+        for (at, &w) in iterate.w.iter().enumerate() {
             let (below, above) = distances(w, frame.lower[at], frame.upper[at]);
-            let mu = piece.header.mu;
+            let mu = iterate.header.mu;
             let own = frame.gradient.get(at).copied().unwrap_or(0.0);
             self.slope.push(own - force(mu, below) + force(mu, above));
-            self.sigma.push(force(piece.z_lower[at], below) + force(piece.z_upper[at], above));
+            self.sigma.push(force(iterate.z_lower[at], below) + force(iterate.z_upper[at], above));
         }
     }
 
@@ -96,11 +96,11 @@ impl Newton {
     }
 
     /// `false`: the step reaches too far.
-    fn solve(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) -> bool {
+    fn solve(&mut self, frame: &Frame<'_>, iterate: &ComponentIterate<'_>) -> bool {
         let n = frame.n;
         self.w.clear();
         self.w.extend(self.slope[..n].iter().map(|slope| -slope));
-        let residual = |i: usize| frame.rows[i] - piece.w[n + i];
+        let residual = |i: usize| frame.rows[i] - iterate.w[n + i];
         for (i, row) in frame.jacobian.chunks_exact(n.max(1)).enumerate() {
             let push = self.slope[n + i] + self.sigma[n + i] * residual(i);
             self.w.iter_mut().zip(row).for_each(|(right, slope)| *right -= slope * push);
@@ -109,7 +109,7 @@ impl Newton {
             self.w[j] = 0.0;
         }
         cholesky::solve(&self.factor, &mut self.w);
-        if (0..n).any(|j| self.w[j].abs() > frame.reach(j, piece.w[j])) {
+        if (0..n).any(|j| self.w[j].abs() > frame.reach(j, iterate.w[j])) {
             return false;
         }
         self.y.clear();
@@ -121,13 +121,13 @@ impl Newton {
         true
     }
 
-    fn multiplier_steps(&mut self, frame: &Frame<'_>, piece: &Piece<'_>) {
+    fn multiplier_steps(&mut self, frame: &Frame<'_>, iterate: &ComponentIterate<'_>) {
         self.z_lower.clear();
         self.z_upper.clear();
         for (at, &step) in self.w.iter().enumerate() {
-            let (below, above) = distances(piece.w[at], frame.lower[at], frame.upper[at]);
-            let mu = piece.header.mu;
-            let (lower, upper) = (piece.z_lower[at], piece.z_upper[at]);
+            let (below, above) = distances(iterate.w[at], frame.lower[at], frame.upper[at]);
+            let mu = iterate.header.mu;
+            let (lower, upper) = (iterate.z_lower[at], iterate.z_upper[at]);
             self.z_lower.push(force(mu - lower * step, below) - lower);
             self.z_upper.push(force(mu + upper * step, above) - upper);
         }

@@ -1,12 +1,13 @@
 //! Every number of the small interior point that is a choice. Symbols as in the sparse one, where it has them.
 
+use crate::model::components;
 use crate::solvers::barrier::{BarrierRule, InertiaCorrection};
 
 /// The parameters the solver runs with.
 pub(super) const PARAMETERS: Parameters = Parameters {
-    largest: 64,
-    fewest_variables: 200,
-    batch: 128,
+    largest: components::SMALL,
+    fewest_variables: components::FEWEST_VARIABLES,
+    batch: components::BATCH,
     steps: 5,
     barrier: BarrierRule::down_to(1e-11),
     kappa_1: 1e-2,
@@ -31,6 +32,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     exact: 1e-14,
     accepted: 1e-12,
     no_multiplier: 1e-12,
+    idle: 1e-10,
+    level: 1e-12,
 };
 
 /// What can be chosen, with the inequality each number stands in.
@@ -38,7 +41,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
 pub(super) struct Parameters {
     /// Components of more variables or rows than this are no work for dense matrices.
     pub largest: usize,
-    /// Models with fewer variables are left in one piece: there is nothing to gain.
+    /// Models with fewer variables are solved as a whole.
     pub fewest_variables: usize,
     /// Components a thread takes at a time.
     pub batch: usize,
@@ -76,4 +79,8 @@ pub(super) struct Parameters {
     pub accepted: f64,
     /// Multipliers of the wrong sign up to this are zero.
     pub no_multiplier: f64,
+    /// An earlier answer's row is at a limit where its scaled multiplier |y_i| is above this.
+    pub idle: f64,
+    /// A row is scaled by its slope where ‖∇c_i‖_∞ is above this share of its largest limit, by that limit otherwise.
+    pub level: f64,
 }

@@ -1,6 +1,6 @@
 //! The line search along a Newton step.
 
-use super::arena::Piece;
+use super::arena::ComponentIterate;
 use super::barrier::{self, distances, force};
 use super::frame::Frame;
 use super::newton::Newton;
@@ -40,31 +40,31 @@ fn largest(values: &[f64]) -> f64 {
 
 impl Search {
     /// Backtracks until the merit function falls; moves there, first derivatives being evaluated. `false`: it does not fall.
-    pub fn descend(&mut self, frame: &mut Frame<'_>, newton: &Newton, piece: &mut Piece<'_>) -> bool {
-        let violation = violation(frame, piece.w);
+    pub fn descend(&mut self, frame: &mut Frame<'_>, newton: &Newton, iterate: &mut ComponentIterate<'_>) -> bool {
+        let violation = violation(frame, iterate.w);
         let slope: f64 = newton.slope.iter().zip(&newton.w).map(|(slope, step)| slope * step).sum();
         let needed = if violation > 0.0 { slope / (0.9 * violation) } else { 0.0 };
         // One wild step must not weigh down all that follow.
-        piece.header.penalty = (PARAMETERS.penalty_kept * piece.header.penalty).max(1.5 * largest(&newton.y)).max(needed);
-        let merit = Merit { mu: piece.header.mu, penalty: piece.header.penalty };
+        iterate.header.penalty = (PARAMETERS.penalty_kept * iterate.header.penalty).max(1.5 * largest(&newton.y)).max(needed);
+        let merit = Merit { mu: iterate.header.mu, penalty: iterate.header.penalty };
         let tau = PARAMETERS.barrier.tau(merit.mu);
-        let (begin, fall) = (merit.at(frame, piece.w), slope - merit.penalty * violation);
-        let longest = longest(frame, newton, piece, tau);
+        let (begin, fall) = (merit.at(frame, iterate.w), slope - merit.penalty * violation);
+        let longest = longest(frame, newton, iterate, tau);
         let room = 10.0 * f64::EPSILON * begin.abs().max(1.0);
         let mut length = longest;
         loop {
             self.trial.clear();
-            self.trial.extend(piece.w.iter().zip(&newton.w).map(|(w, step)| w + length * step));
+            self.trial.extend(iterate.w.iter().zip(&newton.w).map(|(w, step)| w + length * step));
             // The first trial is nearly always taken, and then its derivatives are wanted.
             let is_first = length == longest;
             let valid = if is_first {
-                frame.first_order(&self.trial, piece.header, piece.row_scale)
+                frame.first_order(&self.trial, iterate.header, iterate.row_scale)
             } else {
-                frame.values(&self.trial, piece.header, piece.row_scale)
+                frame.values(&self.trial, iterate.header, iterate.row_scale)
             };
             self.settle_slacks(frame, merit);
             if valid && merit.at(frame, &self.trial) <= begin + PARAMETERS.eta * length * fall + room {
-                if !is_first && !frame.first_order(&self.trial, piece.header, piece.row_scale) {
+                if !is_first && !frame.first_order(&self.trial, iterate.header, iterate.row_scale) {
                     return false;
                 }
                 break;
@@ -74,7 +74,7 @@ impl Search {
                 return false;
             }
         }
-        self.accept(frame, newton, piece, length, tau);
+        self.accept(frame, newton, iterate, length, tau);
         true
     }
 
@@ -100,37 +100,37 @@ impl Search {
     }
 
     /// Moves to the trial point, multipliers by their own longest steps.
-    fn accept(&mut self, frame: &Frame<'_>, newton: &Newton, piece: &mut Piece<'_>, length: f64, tau: f64) {
-        let (mu, n) = (piece.header.mu, frame.n);
-        let dual = longest_multiplier_step(piece.z_lower, &newton.z_lower, tau).min(longest_multiplier_step(
-            piece.z_upper,
+    fn accept(&mut self, frame: &Frame<'_>, newton: &Newton, iterate: &mut ComponentIterate<'_>, length: f64, tau: f64) {
+        let (mu, n) = (iterate.header.mu, frame.n);
+        let dual = longest_multiplier_step(iterate.z_lower, &newton.z_lower, tau).min(longest_multiplier_step(
+            iterate.z_upper,
             &newton.z_upper,
             tau,
         ));
-        piece.header.step = piece.w[..n].iter().zip(&self.trial).map(|(w, trial)| (trial - w).powi(2)).sum();
-        piece.w.copy_from_slice(&self.trial);
-        for (y, new) in piece.y.iter_mut().zip(&newton.y) {
+        iterate.header.step = iterate.w[..n].iter().zip(&self.trial).map(|(w, trial)| (trial - w).powi(2)).sum();
+        iterate.w.copy_from_slice(&self.trial);
+        for (y, new) in iterate.y.iter_mut().zip(&newton.y) {
             *y += length * (new - *y);
         }
-        for at in 0..piece.w.len() {
-            let (below, above) = distances(piece.w[at], frame.lower[at], frame.upper[at]);
+        for at in 0..iterate.w.len() {
+            let (below, above) = distances(iterate.w[at], frame.lower[at], frame.upper[at]);
             let central = |z: f64, distance: f64| {
                 let middle = force(mu, distance);
                 z.clamp(middle / PARAMETERS.barrier.kappa_sigma, middle * PARAMETERS.barrier.kappa_sigma)
             };
             if frame.lower[at] < frame.upper[at] {
-                piece.z_lower[at] = central(piece.z_lower[at] + dual * newton.z_lower[at], below);
-                piece.z_upper[at] = central(piece.z_upper[at] + dual * newton.z_upper[at], above);
+                iterate.z_lower[at] = central(iterate.z_lower[at] + dual * newton.z_lower[at], below);
+                iterate.z_upper[at] = central(iterate.z_upper[at] + dual * newton.z_upper[at], above);
             }
         }
     }
 }
 
 /// The fraction-to-the-boundary rule for w.
-fn longest(frame: &Frame<'_>, newton: &Newton, piece: &Piece<'_>, tau: f64) -> f64 {
+fn longest(frame: &Frame<'_>, newton: &Newton, iterate: &ComponentIterate<'_>, tau: f64) -> f64 {
     let mut length: f64 = 1.0;
     for (at, &step) in newton.w.iter().enumerate() {
-        let (below, above) = distances(piece.w[at], frame.lower[at], frame.upper[at]);
+        let (below, above) = distances(iterate.w[at], frame.lower[at], frame.upper[at]);
         if step < 0.0 {
             length = length.min(-tau * below / step);
         } else if step > 0.0 {

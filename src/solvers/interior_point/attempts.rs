@@ -10,7 +10,7 @@ use super::slack_form::Source;
 use super::start;
 use super::state::State;
 use crate::model::{EvaluationError, Model};
-use crate::solvers::{Conclusion, Point};
+use crate::solvers::{Conclusion, RankedPoint};
 
 /// What became of earlier runs.
 #[derive(Default)]
@@ -18,7 +18,7 @@ pub(super) struct Attempts {
     rescaled: usize,
     elsewhere: usize,
     /// The best conclusion so far with its point.
-    earlier: Option<(Ending, Conclusion, Point)>,
+    earlier: Option<(Ending, Conclusion, RankedPoint)>,
 }
 
 impl Attempts {
@@ -28,7 +28,7 @@ impl Attempts {
         model: &'a dyn Model,
         start: &[f64],
         engine: &mut Engine<'a>,
-        (ending, conclusion, point): (Ending, Conclusion, Point),
+        (ending, conclusion, point): (Ending, Conclusion, RankedPoint),
     ) -> Result<Option<Engine<'a>>, EvaluationError> {
         let solved = ending.is_solved();
         if self.earlier.as_ref().is_none_or(|earlier| supersedes(&ending, &point, earlier)) {
@@ -63,7 +63,7 @@ impl Attempts {
     }
 
     /// What the runs came to.
-    pub fn conclude(self) -> Option<(Conclusion, Option<Point>)> {
+    pub fn conclude(self) -> Option<(Conclusion, Option<RankedPoint>)> {
         self.earlier.map(|(ending, conclusion, point)| {
             // A run that got stuck has nothing to say for its last point; the best one by rank is handed back.
             let stuck = matches!(ending, Ending::Stuck(_) | Ending::Invalid(_));
@@ -81,7 +81,7 @@ fn begin<'a>(model: &'a dyn Model, beginning: InitialPoint<'_>) -> Result<Option
 }
 
 /// Whether a run's ending is worth more than an earlier one's.
-fn supersedes(ending: &Ending, point: &Point, (earlier, _, earlier_point): &(Ending, Conclusion, Point)) -> bool {
+fn supersedes(ending: &Ending, point: &RankedPoint, (earlier, _, earlier_point): &(Ending, Conclusion, RankedPoint)) -> bool {
     let rank = |ending: &Ending| match ending {
         Ending::Optimal | Ending::Acceptable => 0,
         Ending::Diverging(_) => 1,

@@ -16,7 +16,7 @@ struct Violation {
 }
 
 /// Least violation near a reference point. Variables: x, then the violations.
-pub(super) struct Elastic<'a> {
+pub(super) struct LeastViolation<'a> {
     base: &'a dyn Model,
     meta: Meta,
     /// The base's number and scale of each row.
@@ -30,7 +30,7 @@ pub(super) struct Elastic<'a> {
     diagonal_places: Vec<usize>,
 }
 
-impl<'a> Elastic<'a> {
+impl<'a> LeastViolation<'a> {
     /// The restoration of `base` from `x`: `rows` with their scales, ζ, and the barrier parameter that balances the
     /// first violations.
     pub fn new(base: &'a dyn Model, x: &[f64], rows: Vec<(usize, f64)>, zeta: f64, mu: f64) -> Result<Self, EvaluationError> {
@@ -65,7 +65,7 @@ impl<'a> Elastic<'a> {
         let chosen = rows.iter().map(|&(row, _)| row).collect();
         meta.names = NameTable::new(ViolationNames { of: of.names.clone(), variables: n, violated, rows: chosen });
         let proximity = x.iter().map(|x| zeta / x.abs().max(1.0).powi(2)).collect();
-        Ok(Elastic { base, meta, rows, violations, reference: x.to_vec(), proximity, hessian_places, diagonal_places })
+        Ok(LeastViolation { base, meta, rows, violations, reference: x.to_vec(), proximity, hessian_places, diagonal_places })
     }
 
     fn split<'x>(&self, x: &'x [f64]) -> (&'x [f64], &'x [f64]) {
@@ -119,7 +119,7 @@ fn with_diagonal(pattern: &Pattern) -> (Pattern, Vec<usize>, Vec<usize>) {
     (full, places, diagonal)
 }
 
-impl Model for Elastic<'_> {
+impl Model for LeastViolation<'_> {
     fn meta(&self) -> &Meta {
         &self.meta
     }

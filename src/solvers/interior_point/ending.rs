@@ -12,7 +12,7 @@ pub(super) enum Ending {
     Acceptable,
     /// A local minimum of the violation, not zero.
     Infeasible,
-    /// Objective or variables run off.
+    /// Objective or variables go to infinity.
     Diverging(String),
     /// No way on was found.
     Stuck(String),

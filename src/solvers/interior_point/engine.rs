@@ -13,7 +13,7 @@ use super::saddle::Escapes;
 use super::slack_form::Source;
 use super::state::State;
 use crate::model::{EvaluationError, Model};
-use crate::solvers::{Conclusion, Point, Why};
+use crate::solvers::{Conclusion, RankedPoint, Why};
 
 /// The state of a run, and the strategies that work on it. Each keeps its own counters.
 pub(super) struct Engine<'a> {
@@ -223,7 +223,7 @@ impl<'a> Engine<'a> {
     }
 
     /// The run's conclusion and its point.
-    pub fn conclude(&mut self, ending: &Ending) -> (Conclusion, Point) {
+    pub fn conclude(&mut self, ending: &Ending) -> (Conclusion, RankedPoint) {
         let state = &mut self.state;
         let (why, message, invalid) = match ending {
             Ending::Optimal | Ending::Acceptable => {

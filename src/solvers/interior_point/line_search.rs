@@ -2,7 +2,7 @@
 
 use super::acceptance::{Acceptance, Here, Measure};
 use super::barrier;
-use super::kkt::Sides;
+use super::kkt::RightHandSide;
 use super::parameters::PARAMETERS;
 use super::state::State;
 use super::vectors::moved;
@@ -78,7 +78,7 @@ fn second_order_correction(
     let (mut w_step, mut y_step) = (state.direction.w.clone(), state.direction.y.clone());
     for _ in 0..PARAMETERS.filter.p_max {
         let rows: Vec<f64> = accumulated.iter().map(|value| -value).collect();
-        if state.kkt.solve(Sides { w: &state.work.right, rows: &rows }, &mut w_step, &mut y_step).is_err() {
+        if state.kkt.solve(RightHandSide { w: &state.work.right, rows: &rows }, &mut w_step, &mut y_step).is_err() {
             return Ok(None);
         }
         let corrected = barrier::longest_step(&state.form, &state.iterate.w, &w_step, state.tau());

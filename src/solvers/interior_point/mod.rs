@@ -42,10 +42,12 @@ mod scaling;
 mod slack_form;
 mod start;
 mod state;
+#[cfg(test)]
+mod tests;
 mod vectors;
 mod watchdog;
 
-use super::{Conclusion, Point, Progress, Solver};
+use super::{Conclusion, Progress, RankedPoint, Solver};
 use crate::model::Evaluator;
 use attempts::Attempts;
 use begin::InitialPoint;
@@ -105,7 +107,7 @@ impl Solver for InteriorPoint<'_> {
 }
 
 /// Runs to the end, for components of a larger model. `None`: no minimum was reached.
-pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<Point> {
+pub(super) fn solve_alone(model: &Evaluator<'_>, start: &[f64]) -> Option<RankedPoint> {
     let mut engine = Engine::new(Source::Given(model), InitialPoint::at(start)).ok()?;
     let ending = loop {
         if let Some(ending) = engine.step().ok()? {

@@ -7,7 +7,7 @@
 
 use super::barrier;
 use super::iterate::Iterate;
-use super::kkt::{Blocks, Sides};
+use super::kkt::{Blocks, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::state::{State, Workspace};
 use super::vectors::{dot, moved};
@@ -119,7 +119,7 @@ impl State<'_> {
         right.iter_mut().for_each(|value| *value = -*value);
         let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();
         let mut step = Step::zero(right.len(), rows.len());
-        kkt.solve(Sides { w: right, rows: &rows }, &mut step.w, &mut step.y).ok()?;
+        kkt.solve(RightHandSide { w: right, rows: &rows }, &mut step.w, &mut step.y).ok()?;
         let Step { w: w_step, z_lower, z_upper, .. } = &mut step;
         let multipliers = (&iterate.z_lower[..], &iterate.z_upper[..]);
         barrier::multiplier_steps(form, &iterate.w, w_step, 0.0, multipliers, (z_lower, z_upper));
@@ -136,7 +136,7 @@ impl State<'_> {
             step.z_upper[j] = target(form.upper[j] - w, -predictor.w[j] * predictor.z_upper[j]);
             right[j] = step.z_lower[j] - step.z_upper[j];
         }
-        kkt.solve(Sides { w: right, rows: &vec![0.0; iterate.y.len()] }, &mut step.w, &mut step.y).ok()?;
+        kkt.solve(RightHandSide { w: right, rows: &vec![0.0; iterate.y.len()] }, &mut step.w, &mut step.y).ok()?;
         for (j, &w) in iterate.w.iter().enumerate() {
             step.z_lower[j] -= iterate.z_lower[j] * step.w[j] / (w - form.lower[j]);
             step.z_upper[j] += iterate.z_upper[j] * step.w[j] / (form.upper[j] - w);

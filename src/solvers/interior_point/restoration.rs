@@ -1,7 +1,7 @@
 //! The feasibility restoration: Wächter & Biegler (2006), §3.3. The violation is minimised (by the same iterations, on the
 //! elastic problem) until the filter accepts a point again, or a local minimum of the violation shows that there is none nearby.
 
-use super::elastic::Elastic;
+use super::elastic::LeastViolation;
 use super::ending::Ending;
 use super::parameters::PARAMETERS;
 use super::slack_form::Source;
@@ -41,12 +41,12 @@ pub(super) fn is_called_for(state: &State<'_>) -> bool {
 }
 
 /// The elastic problem at the iterate with its first barrier parameter; `None` where the run is a restoration itself.
-pub(super) fn elastic<'a>(state: &mut State<'a>, zeta: f64) -> Result<Option<(Elastic<'a>, f64)>, EvaluationError> {
+pub(super) fn elastic<'a>(state: &mut State<'a>, zeta: f64) -> Result<Option<(LeastViolation<'a>, f64)>, EvaluationError> {
     let Source::Given(model) = state.form.model else { return Ok(None) };
     let x = state.form.x(&state.iterate.w).to_vec();
     let rows: Vec<(usize, f64)> = state.form.rows.iter().copied().zip(state.form.row_scale.iter().copied()).collect();
     let mu = state.mu.max(norm_max(&state.iterate.residual).min(PARAMETERS.restoration.largest_mu));
-    Ok(Some((Elastic::new(model, &x, rows, zeta, mu)?, mu)))
+    Ok(Some((LeastViolation::new(model, &x, rows, zeta, mu)?, mu)))
 }
 
 /// Puts the trial point at the restoration's x, slacks at the rows' values. `false`: outside the domain.

@@ -2,7 +2,7 @@
 //! starts on one, or on the symmetry plane of one; the inertia tells.
 
 use super::barrier;
-use super::kkt::{Blocks, Kkt, Sides};
+use super::kkt::{Blocks, Kkt, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::slack_form::SlackForm;
 use super::start;
@@ -103,7 +103,7 @@ fn inverse_iteration(kkt: &mut Kkt, form: &SlackForm<'_>) -> Option<Vec<f64>> {
         *right = 1.0 + ((j as f64 + 1.0) * 0.618_033_988_75).fract();
     }
     for _ in 0..PARAMETERS.saddle.inverse_iterations {
-        kkt.solve(Sides { w: &right, rows: &rows }, &mut step, &mut y).ok()?;
+        kkt.solve(RightHandSide { w: &right, rows: &rows }, &mut step, &mut y).ok()?;
         let size = norm_max(&step);
         if size == 0.0 {
             return None;

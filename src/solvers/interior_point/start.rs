@@ -3,7 +3,7 @@
 //! Wächter & Biegler (2006), §3.6, plus a search for the domain where the start is outside of it.
 
 use super::iterate::Iterate;
-use super::kkt::{Blocks, Kkt, Sides};
+use super::kkt::{Blocks, Kkt, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::scaling;
 use super::slack_form::SlackForm;
@@ -100,7 +100,7 @@ pub(super) fn least_squares_multipliers(form: &SlackForm<'_>, kkt: &mut Kkt, ite
     let (mut w_step, mut y) = (vec![0.0; form.size()], vec![0.0; iterate.y.len()]);
     let zeros = vec![0.0; iterate.y.len()];
     let solved = kkt.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia.zero == 0)
-        && kkt.solve(Sides { w: &right, rows: &zeros }, &mut w_step, &mut y).is_ok();
+        && kkt.solve(RightHandSide { w: &right, rows: &zeros }, &mut w_step, &mut y).is_ok();
     if solved && norm_max(&y) <= PARAMETERS.lambda_max {
         iterate.y = y;
     }

@@ -2,12 +2,12 @@
 
 use super::barrier;
 use super::iterate::{Errors, Iterate};
-use super::kkt::{Blocks, Kkt, Sides};
+use super::kkt::{Blocks, Kkt, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::slack_form::SlackForm;
 use super::vectors::moved;
 use crate::model::EvaluationError;
-use crate::solvers::Point;
+use crate::solvers::RankedPoint;
 use crate::solvers::barrier::longest_multiplier_step;
 
 /// A Newton direction.
@@ -142,7 +142,7 @@ impl<'a> State<'a> {
             return Ok(false);
         }
         let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();
-        Ok(kkt.solve(Sides { w: &work.right, rows: &rows }, &mut direction.w, &mut direction.y).is_ok())
+        Ok(kkt.solve(RightHandSide { w: &work.right, rows: &rows }, &mut direction.w, &mut direction.y).is_ok())
     }
 
     /// Puts the trial point's w at this length along the direction.
@@ -201,9 +201,9 @@ impl<'a> State<'a> {
     }
 
     /// The current iterate as the user knows it.
-    pub fn point(&mut self) -> Point {
+    pub fn point(&mut self) -> RankedPoint {
         let x = self.form.x(&self.iterate.w).to_vec();
-        Point {
+        RankedPoint {
             x,
             objective: self.iterate.objective / self.form.objective_scale,
             relative_violation: self.form.scaled_violation(&self.iterate.rows),

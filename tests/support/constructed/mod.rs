@@ -6,6 +6,7 @@
 //! weak ones and the free ones its Schur complement M on the weak ones is chosen: strictly copositive or falling on one face.
 #![allow(dead_code, reason = "each binary uses a part")]
 
+mod degenerate;
 pub mod polynomial;
 mod random;
 mod stationary;
@@ -25,9 +26,9 @@ pub enum Nature {
     DegenerateMinimum,
     /// The same, but it falls on one side or on both.
     DegenerateNoMinimum,
-    /// The Lagrangian bends down on the null space of the active limits.
+    /// The Lagrangian has negative curvature on the null space of the active limits.
     Saddle,
-    /// It bends down only where so many weakly active limits are left at once.
+    /// It has negative curvature only where so many weakly active limits are left at once.
     FallsOnFace(usize),
     Maximum,
     /// No point is feasible: a Farkas combination is short by this power of ten.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use nalgebra::DMatrix;
 use ribopt::model::{EvaluationError, Meta, Model, Pattern};
 
 /// c·(d·w)^p
@@ -229,4 +230,24 @@ impl Model for Problem {
         }
         finite(values)
     }
+}
+
+/// ½tᵀKt as squares of (t_i ± t_j).
+pub fn quadratic(k: &DMatrix<f64>, coordinates: &[Vec<f64>]) -> Vec<Power> {
+    let n = coordinates.len();
+    let mut powers = Vec::new();
+    for i in 0..n {
+        let mut own = k[(i, i)];
+        for j in (0..n).filter(|&j| j != i) {
+            own -= k[(i, j)];
+            if j < i && k[(i, j)] != 0.0 {
+                let direction = coordinates[i].iter().zip(&coordinates[j]).map(|(a, b)| a + b).collect();
+                powers.push(Power { factor: 0.5 * k[(i, j)], direction, exponent: 2 });
+            }
+        }
+        if own != 0.0 {
+            powers.push(Power { factor: 0.5 * own, direction: coordinates[i].clone(), exponent: 2 });
+        }
+    }
+    powers
 }

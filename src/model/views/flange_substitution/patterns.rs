@@ -1,6 +1,7 @@
 //! Where the derivatives in the substituted variables stand.
 
 use super::{NOWHERE, THINNEST};
+use crate::math::within;
 use crate::model::{Meta, Pattern};
 
 /// Bounds of t, and h's own bounds as a row hl ≤ t + hw ≤ hu.
@@ -8,7 +9,7 @@ pub(super) fn bound_difference(meta: &mut Meta, user: &Meta, h: usize, hw: usize
     let reach = [user.upper[h], user.start[h]].into_iter().find(|value| value.is_finite()).map_or(1.0, f64::abs);
     meta.lower[h] = THINNEST * reach.max(f64::MIN_POSITIVE);
     meta.upper[h] = (user.upper[h] - user.lower[hw]).max(meta.lower[h]);
-    meta.start[h] = (user.start[h] - user.start[hw]).clamp(meta.lower[h], meta.upper[h]);
+    meta.start[h] = within(user.start[h] - user.start[hw], meta.lower[h], meta.upper[h]);
     meta.row_lower.push(user.lower[h]);
     meta.row_upper.push(user.upper[h]);
     meta.row_is_linear.push(true);

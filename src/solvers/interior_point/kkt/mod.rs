@@ -55,7 +55,7 @@ pub(super) struct Blocks<'b> {
 }
 
 /// Right-hand sides, or the steps they lead to: of w (variables, then slacks) and of the rows.
-pub(super) struct Sides<'s> {
+pub(super) struct RightHandSide<'s> {
     pub w: &'s [f64],
     pub rows: &'s [f64],
 }
@@ -197,7 +197,7 @@ impl Kkt {
     }
 
     /// Solves for the steps (w_step, y_step) that belong to right-hand sides.
-    pub fn solve(&mut self, right: Sides<'_>, w_step: &mut [f64], y_step: &mut [f64]) -> Result<(), FactorizationError> {
+    pub fn solve(&mut self, right: RightHandSide<'_>, w_step: &mut [f64], y_step: &mut [f64]) -> Result<(), FactorizationError> {
         let n = self.variables;
         self.right[..n].copy_from_slice(&right.w[..n]);
         for (i, slack) in self.slack.iter().enumerate() {

@@ -4,14 +4,7 @@ use super::super::iterate::Iterate;
 use super::super::parameters::PARAMETERS;
 use super::super::slack_form::SlackForm;
 use crate::math::within;
-
-/// Where each component of w is held: at its lower or upper bound, or not at all.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Side {
-    Free,
-    Lower,
-    Upper,
-}
+use crate::solvers::barrier::BoundState;
 
 /// What to do with components whose slack and multiplier are both near zero.
 #[derive(Clone, Copy, PartialEq)]
@@ -23,7 +16,7 @@ pub(super) enum Doubt {
 }
 
 /// Which bounds are active: those whose multiplier outweighs their slack.
-pub(super) fn active_set(form: &SlackForm<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<Side> {
+pub(super) fn active_set(form: &SlackForm<'_>, iterate: &Iterate, doubt: Doubt) -> Vec<BoundState> {
     let active = |slack: f64, z: f64| {
         z > slack || (doubt == Doubt::Hold && slack < PARAMETERS.polish.ambiguous && z < PARAMETERS.polish.ambiguous)
     };
@@ -31,26 +24,26 @@ pub(super) fn active_set(form: &SlackForm<'_>, iterate: &Iterate, doubt: Doubt) 
         .map(|j| {
             let (below, above) = (iterate.w[j] - form.lower[j], form.upper[j] - iterate.w[j]);
             match (active(below, iterate.z_lower[j]), active(above, iterate.z_upper[j])) {
-                (true, false) => Side::Lower,
-                (false, true) => Side::Upper,
-                (true, true) if below < above => Side::Lower,
-                (true, true) => Side::Upper,
-                (false, false) => Side::Free,
+                (true, false) => BoundState::Lower,
+                (false, true) => BoundState::Upper,
+                (true, true) if below < above => BoundState::Lower,
+                (true, true) => BoundState::Upper,
+                (false, false) => BoundState::Free,
             }
         })
         .collect()
 }
 
-/// Lets go what is held with a multiplier of the wrong sign, and holds what has run into a bound. Whether any did.
-pub(super) fn revise(form: &SlackForm<'_>, sides: &mut [Side], point: &Iterate, scratch: &mut [f64]) -> bool {
+/// Releases what is held with a multiplier of the wrong sign, and holds what has run into a bound. Whether any did.
+pub(super) fn revise(form: &SlackForm<'_>, sides: &mut [BoundState], point: &Iterate, scratch: &mut [f64]) -> bool {
     point.lagrangian_gradient(form, scratch);
     let mut changed = false;
     for (j, side) in sides.iter_mut().enumerate() {
         let revised = match *side {
-            Side::Lower if scratch[j] < 0.0 => Side::Free,
-            Side::Upper if scratch[j] > 0.0 => Side::Free,
-            Side::Free if point.w[j] <= form.lower[j] => Side::Lower,
-            Side::Free if point.w[j] >= form.upper[j] => Side::Upper,
+            BoundState::Lower if scratch[j] < 0.0 => BoundState::Free,
+            BoundState::Upper if scratch[j] > 0.0 => BoundState::Free,
+            BoundState::Free if point.w[j] <= form.lower[j] => BoundState::Lower,
+            BoundState::Free if point.w[j] >= form.upper[j] => BoundState::Upper,
             same => same,
         };
         changed |= revised != *side;
@@ -60,17 +53,17 @@ pub(super) fn revise(form: &SlackForm<'_>, sides: &mut [Side], point: &Iterate, 
 }
 
 /// Turns a gradient into the right-hand side of the free variables.
-pub(super) fn restrict(sides: &[Side], variables: usize, right: &mut [f64]) {
+pub(super) fn restrict(sides: &[BoundState], variables: usize, right: &mut [f64]) {
     for (j, side) in sides.iter().enumerate() {
-        right[j] = if *side != Side::Free || j >= variables { 0.0 } else { -right[j] };
+        right[j] = if *side != BoundState::Free || j >= variables { 0.0 } else { -right[j] };
     }
 }
 
 /// Σ that holds what is not free: a held variable stays, a held slack makes its row an equality, a free one takes its row out.
 /// Variables get `rigid` or `free`.
-pub(super) fn hold_firmly(sides: &[Side], variables: usize, (rigid, free): (f64, f64), sigma: &mut [f64]) {
+pub(super) fn hold_firmly(sides: &[BoundState], variables: usize, (rigid, free): (f64, f64), sigma: &mut [f64]) {
     for (j, side) in sides.iter().enumerate() {
-        sigma[j] = match (*side != Side::Free, j < variables) {
+        sigma[j] = match (*side != BoundState::Free, j < variables) {
             (true, true) => rigid,
             (false, true) => free,
             (true, false) => f64::INFINITY,
@@ -80,28 +73,28 @@ pub(super) fn hold_firmly(sides: &[Side], variables: usize, (rigid, free): (f64,
 }
 
 /// Puts held components onto their bounds.
-pub(super) fn hold(form: &SlackForm<'_>, sides: &[Side], point: &mut Iterate) {
+pub(super) fn hold(form: &SlackForm<'_>, sides: &[BoundState], point: &mut Iterate) {
     for (j, side) in sides.iter().enumerate() {
         match side {
-            Side::Lower => point.w[j] = form.lower[j],
-            Side::Upper => point.w[j] = form.upper[j],
-            Side::Free => {}
+            BoundState::Lower => point.w[j] = form.lower[j],
+            BoundState::Upper => point.w[j] = form.upper[j],
+            BoundState::Free => {}
         }
     }
 }
 
 /// Free slacks at their rows' values, bound multipliers from stationarity; the optimality error of the result.
-pub(super) fn settle(form: &SlackForm<'_>, sides: &[Side], point: &mut Iterate, scratch: &mut [f64]) -> f64 {
+pub(super) fn settle(form: &SlackForm<'_>, sides: &[BoundState], point: &mut Iterate, scratch: &mut [f64]) -> f64 {
     for (slack, row) in form.slack.iter().zip(&point.rows) {
-        if let Some(slack) = slack.filter(|&slack| sides[slack] == Side::Free) {
+        if let Some(slack) = slack.filter(|&slack| sides[slack] == BoundState::Free) {
             point.w[slack] = within(*row, form.lower[slack], form.upper[slack]);
         }
     }
     form.residual(&point.w, &point.rows, &mut point.residual);
     point.lagrangian_gradient(form, scratch);
     for (j, side) in sides.iter().enumerate() {
-        point.z_lower[j] = if *side == Side::Lower { scratch[j].max(0.0) } else { 0.0 };
-        point.z_upper[j] = if *side == Side::Upper { (-scratch[j]).max(0.0) } else { 0.0 };
+        point.z_lower[j] = if *side == BoundState::Lower { scratch[j].max(0.0) } else { 0.0 };
+        point.z_upper[j] = if *side == BoundState::Upper { (-scratch[j]).max(0.0) } else { 0.0 };
     }
     point.errors(form, 0.0, scratch).largest()
 }

@@ -4,13 +4,14 @@
 mod active_set;
 
 use super::iterate::Iterate;
-use super::kkt::{Blocks, Sides};
+use super::kkt::{Blocks, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::state::{State, Workspace};
 use super::vectors::norm_max;
 use crate::math::within;
 use crate::model::EvaluationError;
-use active_set::{Doubt, Side, active_set, hold, hold_firmly, restrict, revise, settle};
+use crate::solvers::barrier::BoundState;
+use active_set::{Doubt, active_set, hold, hold_firmly, restrict, revise, settle};
 
 /// Whether the active set is a guess, whose system may well be singular.
 #[derive(Clone, Copy, PartialEq)]
@@ -105,7 +106,7 @@ impl State<'_> {
     }
 
     /// Newton steps on the active set; the best point, if it is better than the iterate.
-    fn newton_on(&mut self, sides: &[Side]) -> Result<Option<Iterate>, EvaluationError> {
+    fn newton_on(&mut self, sides: &[BoundState]) -> Result<Option<Iterate>, EvaluationError> {
         let mut point = self.iterate.clone();
         let (mut best, mut least) = (None, self.errors.largest());
         hold(&self.form, sides, &mut point);
@@ -131,7 +132,7 @@ impl State<'_> {
 
     /// Where active rows are dependent their multipliers are one choice of many and may drift: the smallest are taken,
     /// if they prove as much.
-    fn least_norm_multipliers(&mut self, sides: &[Side], best: &mut Iterate, error: f64) {
+    fn least_norm_multipliers(&mut self, sides: &[BoundState], best: &mut Iterate, error: f64) {
         let Self { form, kkt, work: Workspace { hessian, sigma, right, .. }, direction, .. } = self;
         let n = form.variables();
         let mut point = best.clone();
@@ -142,7 +143,7 @@ impl State<'_> {
         hessian.fill(0.0);
         let blocks = Blocks { hessian, jacobian: &point.jacobian, sigma };
         let zeros = vec![0.0; form.rows.len()];
-        let sides_given = Sides { w: right, rows: &zeros };
+        let sides_given = RightHandSide { w: right, rows: &zeros };
         if kkt.factor(blocks, 0.0, PARAMETERS.polish.regularisation).is_err()
             || kkt.solve(sides_given, &mut direction.w, &mut direction.y).is_err()
         {
@@ -155,7 +156,7 @@ impl State<'_> {
     }
 
     /// Factorises Newton's matrix on an active set, regularised where it has no factors without. `false`: there are none.
-    fn factor_on(&mut self, sides: &[Side], point: &Iterate, certain: Certainty) -> Result<bool, EvaluationError> {
+    fn factor_on(&mut self, sides: &[BoundState], point: &Iterate, certain: Certainty) -> Result<bool, EvaluationError> {
         let Self { form, kkt, work: Workspace { hessian, sigma, .. }, .. } = self;
         form.hessian(&point.w, &point.y, hessian)?;
         hold_firmly(sides, form.variables(), (kkt.rigid(), 0.0), sigma);
@@ -165,17 +166,17 @@ impl State<'_> {
     }
 
     /// One step of variables and multipliers with the factors found last. `false`: there is none.
-    fn step_on(&mut self, sides: &[Side], point: &mut Iterate) -> Result<bool, EvaluationError> {
+    fn step_on(&mut self, sides: &[BoundState], point: &mut Iterate) -> Result<bool, EvaluationError> {
         let Self { form, kkt, work: Workspace { right, .. }, direction, .. } = self;
         let n = form.variables();
         point.lagrangian_gradient(form, right);
         restrict(sides, n, right);
-        let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != Side::Free);
+        let in_play = |i: usize| form.slack[i].is_none_or(|slack| sides[slack] != BoundState::Free);
         let rows: Vec<f64> = (0..form.rows.len()).map(|i| if in_play(i) { -point.residual[i] } else { 0.0 }).collect();
-        if kkt.solve(Sides { w: right, rows: &rows }, &mut direction.w, &mut direction.y).is_err() {
+        if kkt.solve(RightHandSide { w: right, rows: &rows }, &mut direction.w, &mut direction.y).is_err() {
             return Ok(false);
         }
-        for j in (0..n).filter(|&j| sides[j] == Side::Free) {
+        for j in (0..n).filter(|&j| sides[j] == BoundState::Free) {
             point.w[j] = within(point.w[j] + direction.w[j], form.lower[j], form.upper[j]);
         }
         for i in 0..rows.len() {

@@ -3,14 +3,14 @@
 use super::session::Session;
 use super::{Answer, Conflict, LimitMove, Outcome, Status};
 use crate::backends::Termination;
-use crate::certificate::Scope;
+use crate::certificate::Extent;
 use crate::expression::display::plain;
 
 /// Names shown at the most.
 const SHOWN: usize = 6;
 
 pub(super) fn certified(outcome: &mut Outcome) {
-    let reach = if outcome.scope == Scope::Global { "the global minimum" } else { "a local minimum" };
+    let reach = if outcome.scope == Extent::Global { "the global minimum" } else { "a local minimum" };
     let mut message = format!("The point is {reach}: feasible, stationary, and no direction the limits allow leads down.");
     if outcome.better_point_elsewhere {
         message.push_str(" But a backend holds a feasible point with a lower objective, which is not certified.");
@@ -36,7 +36,7 @@ pub(super) fn certified(outcome: &mut Outcome) {
     if outcome.minimiser_is_not_unique {
         message.push_str(" The minimiser is not unique: the backends hold different points of equal value.");
     }
-    if outcome.scope == Scope::Global && outcome.lower_bound.is_none() {
+    if outcome.scope == Extent::Global && outcome.lower_bound.is_none() {
         message.push_str(" No lower bound is printed: some variables are open on a side that no limit closes.");
     }
     outcome.message = message;
@@ -69,7 +69,7 @@ pub(super) fn diverging(session: &Session<'_>, outcome: &mut Outcome) {
 }
 
 pub(super) fn infeasible(session: &Session<'_>, outcome: &mut Outcome, conflict: &Conflict) {
-    let (infeasible, conflicting) = if outcome.scope == Scope::Global {
+    let (infeasible, conflicting) = if outcome.scope == Extent::Global {
         ("infeasible", "conflict")
     } else {
         ("locally infeasible", "are locally conflicting")
@@ -79,7 +79,7 @@ pub(super) fn infeasible(session: &Session<'_>, outcome: &mut Outcome, conflict:
     let side = |upper: bool| if upper { "upper" } else { "lower" };
     let bounds = conflict.bounds.iter().map(|&(j, upper)| format!("the {} bound of {}", side(upper), model.variable_name(j)));
     let all: Vec<_> = rows.into_iter().chain(bounds).collect();
-    let reach = if outcome.scope == Scope::Global { "no point" } else { "no point nearby" };
+    let reach = if outcome.scope == Extent::Global { "no point" } else { "no point nearby" };
     let mut message = format!("The problem is {infeasible}: {reach} meets every limit, and this one misses them least.");
     match all.len() {
         0 => {}

@@ -11,14 +11,14 @@ const NAMED: f64 = 0.01;
 const MOST_NAMED: usize = 6;
 
 /// One sentence per failed test, naming the variable or row; then remarks.
-pub(super) fn messages(
+pub(super) fn sentences(
     point: &Point<'_>,
     multipliers: &Multipliers,
     certificate: &Certificate,
     tolerances: &Tolerances,
 ) -> Vec<String> {
     let mut all = Vec::new();
-    if certificate.met_only_far_away {
+    if certificate.feasible_only_at_infinity {
         all.push(format!(
             "the rows are met only because variables are so large that the violation is lost beside them ({:.1e} of the start's scale, accepted {:.1e})",
             certificate.primal_infeasibility, tolerances.constraint
@@ -38,10 +38,10 @@ pub(super) fn messages(
     let along = certificate.escape.as_ref().map_or(String::new(), |escape| format!(" ({})", direction(point, escape)));
     if certificate.negative_curvature {
         all.push(format!(
-            "the point is stationary, but no minimum: along a direction the limits allow{along}, the objective bends down"
+            "the point is stationary, but no minimum: along a direction the limits allow{along}, the curvature is negative"
         ));
     }
-    if certificate.falls_further {
+    if certificate.descends_at_higher_order {
         all.push(format!("the point is stationary, but no minimum: flat to second order, the objective falls further along a direction the limits allow{along}"));
     }
     match certificate.undecided {
