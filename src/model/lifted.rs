@@ -167,6 +167,20 @@ impl Lifted {
         self.modes()?.below(z, pencil, limit)
     }
 
+    /// wᵀSw of S = K − B/μ at a limit, by design and displacements, and its value; `None` where it is not affine in them.
+    ///
+    /// # Errors
+    /// As [`Lifted::spectrum`].
+    pub fn affine_cut(
+        &self,
+        z: &[f64],
+        w: &[f64],
+        pencil: Pencil,
+        limit: f64,
+    ) -> Result<Option<(Vec<f64>, f64)>, EvaluationError> {
+        self.modes()?.affine_cut(z, w, pencil, limit)
+    }
+
     fn modes(&self) -> Result<&Modes, EvaluationError> {
         let none = || EvaluationError::Invalid { term: "modes of the structure".into(), cause: "none is asked for".into() };
         self.model.first().modes().ok_or_else(none)

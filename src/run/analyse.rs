@@ -104,7 +104,8 @@ fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
         let names = listing(outside.into_iter(), 5);
         remarks.push(format!("warning: the answer is outside the bounds of {names}; it is analysed all the same"));
     }
-    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) {
+    let asks_for_modes = !refinement::asked(subject.problem()).is_empty();
+    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) && !asks_for_modes {
         remarks.push("warning: nothing acts on the structure: the file has no [[loads]], and so no case to analyse".into());
     }
     remarks

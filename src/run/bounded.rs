@@ -2,8 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::Subject;
 use super::unobserved::unobserved;
+use super::{Subject, matrix_bound};
 use crate::backends::argmin::Argmin;
 use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status, Task};
@@ -18,7 +18,8 @@ pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: O
     if outcome.scope == Extent::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
         return;
     }
-    let Some(relaxed) = relaxed(subject, interrupt) else { return };
+    let by_modes = || matrix_bound::relaxed(subject, &outcome.x, outcome.objective?, AGREEMENT, interrupt);
+    let Some(relaxed) = relaxed(subject, interrupt).or_else(by_modes) else { return };
     match outcome.status {
         Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
             outcome.scope = Extent::Global;
@@ -37,7 +38,8 @@ fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     let least = if is_global { relaxed.objective } else { relaxed.lower_bound };
     if least.is_some_and(|least| objective - least <= AGREEMENT * objective.abs().max(least.abs())) {
         outcome.scope = Extent::Global;
-        outcome.message += " No design of this layout is below it: whatever forces are in equilibrium with the loads, their limits need as much.";
+        outcome.message +=
+            " No design of this layout is below it: a convex problem whose minimum lies below every design needs as much.";
         outcome.remedy = None;
         outcome.better_point_elsewhere = false;
     }
@@ -57,5 +59,14 @@ fn relaxed(subject: &Subject, interrupt: Option<&AtomicBool>) -> Option<Outcome>
         starts: 1,
         interrupt,
     };
-    Some(unobserved(&task, &[Choice { backend: &Argmin, algorithm: "auto".into() }]))
+    Some(unobserved(&task, &[by_interior_point()]))
+}
+
+/// A convex problem solved by one backend.
+pub(super) fn solved_alone(subject: &Subject, start: &[f64], interrupt: Option<&AtomicBool>) -> Outcome {
+    unobserved(&subject.task(start, interrupt), &[by_interior_point()])
+}
+
+fn by_interior_point() -> Choice {
+    Choice { backend: &Argmin, algorithm: "auto".into() }
 }

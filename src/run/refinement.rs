@@ -43,7 +43,7 @@ pub fn all(problem: &Problem, x: &[f64]) -> Vec<Lowest> {
 }
 
 /// The pencils that the problem (its definitions, too) asks for.
-fn asked(problem: &Problem) -> Vec<Pencil> {
+pub(super) fn asked(problem: &Problem) -> Vec<Pencil> {
     let rows = problem.definitions.iter().map(|(_, formula)| free(formula.clone())).chain(problem.constraints.iter().cloned());
     let all = Problem { constraints: rows.collect(), ..problem.clone() };
     let mut pencils: Vec<Pencil> = Vec::new();

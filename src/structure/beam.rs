@@ -32,6 +32,8 @@ pub struct Beam<'a> {
     pub deforms_in_shear: bool,
     /// Where the integrals over its length are cut because of its taper.
     pub grading: &'a [f64],
+    /// Points on each part between cuts where it tapers.
+    pub points: usize,
     /// The loads of the case or combination.
     pub loads: MemberLoads<NodeId>,
     /// The deformations e of the case or combination.
@@ -85,7 +87,12 @@ impl Beam<'_> {
             self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        quadrature::pieces(&breaks, !self.section.is_prismatic())
+        quadrature::pieces(&breaks, self.points())
+    }
+
+    /// Points on each part between cuts.
+    fn points(&self) -> usize {
+        if self.section.is_prismatic() { quadrature::POLYNOMIAL } else { self.points }
     }
 
     /// The basic force number `component` (0 where it is released).

@@ -133,6 +133,7 @@ impl Piece<'_, '_> {
             components: self.components,
             deforms_in_shear: whole.deforms_in_shear,
             grading: &grading,
+            points: if to - from > 0.5 { whole.points } else { quadrature::TAPERED_PIECE },
             loads: MemberLoads::default(),
             deformations: self.deformations(graph, length),
             forces: None,
@@ -249,7 +250,7 @@ fn half(graph: &mut Graph, parts: &[NodeId]) -> NodeId {
 fn stations(beam: &Beam) -> (Vec<Point>, Vec<f64>) {
     let ends: Vec<f64> = std::iter::once(0.0).chain(beam.grading.iter().copied()).chain([1.0]).collect();
     let widths = ends.windows(2).map(|ends| ends[1] - ends[0]).collect();
-    (quadrature::pieces(beam.grading, !beam.section.is_prismatic()), widths)
+    (quadrature::pieces(beam.grading, beam.points()), widths)
 }
 
 /// ∫₀^x of what has these values at the points: exact for polynomials of a degree below the number of points in a segment.

@@ -93,6 +93,22 @@ impl Modes {
         Ok(matrix.negative_eigenvalues())
     }
 
+    /// wᵀSw of S = K − B/μ at a limit: slope and value, where it is affine.
+    pub fn affine_cut(
+        &self,
+        z: &[f64],
+        w: &[f64],
+        pencil: Pencil,
+        limit: f64,
+    ) -> Result<Option<(Vec<f64>, f64)>, EvaluationError> {
+        let share = -1.0 / pencil.inverse(limit);
+        if !self.energies.is_affine() {
+            return Ok(None);
+        }
+        let matrix = self.energies.matrix(z, pencil, 1.0, share)?;
+        Ok(Some((self.energies.slope(z, w, pencil, 1.0, share)?, dot(w, &matrix.times(w)))))
+    }
+
     /// K·v at design and displacements.
     pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
         let k = self.energies.matrix(z, pencil, 1.0, 0.0)?;
