@@ -192,6 +192,9 @@ pub struct Check {
     /// Print what was found as one JSON object
     #[arg(long)]
     pub json: bool,
+    /// Print the rows that `[[checks]]` state, with what they assume
+    #[arg(long, conflicts_with = "json")]
+    pub rows: bool,
 }
 
 #[derive(Debug, Args)]

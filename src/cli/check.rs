@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::{output, reading};
 use ribopt::model::EvaluationError;
 use ribopt::model::derivative_check::DerivativeCheck;
+use ribopt::report::checks;
 use ribopt::report::number::short;
 use ribopt::report::result::write_value;
 use ribopt::report::text::{count, listing};
@@ -25,6 +26,10 @@ pub fn run(arguments: &Check) -> Result<u8, Failure> {
     }
     output::print(|out| {
         sizes(&subject, out)?;
+        match arguments.rows {
+            true => checks::write_rows(&subject.about.checks, out)?,
+            false => checks::write_titles(&subject.about.checks, out)?,
+        }
         match &result {
             Ok(check) => derivatives(check, &subject, out),
             Err(error) => writeln!(out, "derivatives: no value at the start: {error}"),
@@ -55,6 +60,7 @@ struct Found<'a> {
     not_convex: Option<&'a str>,
     variables: usize,
     constraints: usize,
+    checks: Vec<String>,
     derivatives: Option<Derivatives>,
 }
 
@@ -75,6 +81,7 @@ impl<'a> Found<'a> {
             not_convex: subject.obstacles().1,
             variables: meta.variables(),
             constraints: meta.rows(),
+            checks: about.checks.iter().map(|check| check.title()).collect(),
             derivatives: check.map(|check| Derivatives { compared: check.compared, disagreements: check.disagreements }),
         }
     }

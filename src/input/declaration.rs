@@ -1,5 +1,6 @@
 //! The file as declared: shapes checked, names not yet looked up, places kept.
 
+pub(super) mod checks;
 pub(super) mod structure;
 
 use super::fields::Scalar;
@@ -22,6 +23,7 @@ pub(super) struct Declaration {
     pub sections: Vec<SectionEntry>,
     pub ribs: Vec<RibEntry>,
     pub constraints: Vec<ConstraintEntry>,
+    pub checks: Vec<checks::CheckEntry>,
     pub settings: Settings,
     pub structure: structure::StructureEntries,
     pub section_table: Option<Written>,

@@ -4,6 +4,7 @@
 //! looked up and numbers computed (`check`). Mistakes are collected on the way and shown in one go.
 
 mod check;
+mod codes;
 mod declaration;
 mod example;
 mod fields;

@@ -1,5 +1,6 @@
 //! Walks the file's tables into a [`Declaration`].
 
+mod checks;
 mod constraints;
 mod loads;
 mod member;
@@ -52,6 +53,9 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
     }
     for fields in top.take("constraints").map(|field| field.tables(reader)).unwrap_or_default() {
         declared.constraints.push(constraints::constraint(fields, reader));
+    }
+    for fields in top.take("checks").map(|field| field.tables(reader)).unwrap_or_default() {
+        declared.checks.push(checks::check(fields, reader));
     }
     if let Some(fields) = top.take("solver").and_then(|field| field.table(reader)) {
         settings::settings(fields, &mut declared.settings, reader);

@@ -1,5 +1,6 @@
 //! The JSON Schema of the problem file, for completion and checks in editors.
 
+mod checks;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -41,6 +42,7 @@ pub fn schema() -> Value {
             "loads": { "type": "array", "items": structure::load() },
             "combinations": map_of(map_of(scalar("Factor."), "Factors by load case."), "Combinations of load cases."),
             "constraints": { "type": "array", "items": constraint() },
+            "checks": { "type": "array", "items": checks::check() },
             "solver": solver(),
             "tables": object(json!({
                 "sections": text("CSV table of sections: name, kind, dimensions (b, or b.lower, b.upper, b.start), data."),

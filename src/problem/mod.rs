@@ -5,6 +5,7 @@
 pub mod affine;
 pub mod axial;
 pub mod cells;
+pub mod checks;
 mod collections;
 mod constraint;
 mod data;
@@ -23,7 +24,7 @@ pub(crate) mod nearest;
 pub mod order;
 pub mod precheck;
 pub mod profile;
-mod range;
+pub mod range;
 pub mod ratio;
 pub mod resolve;
 pub mod settings;
@@ -74,6 +75,8 @@ pub struct Problem {
     pub ribs: Ribs,
     /// Constraint declarations, in the file's order.
     pub constraints: Vec<Constraint>,
+    /// Checks by design codes; their rows are among the constraints.
+    pub checks: Vec<checks::Check>,
     /// The parameter `density`, which gives mass to volume in reports.
     pub density: Option<f64>,
     /// Variables in the place of minima, maxima and absolute values: the last ones of [`Problem::variables`], in order.

@@ -5,6 +5,7 @@
 pub mod answer;
 mod blocks;
 pub mod bounds;
+pub mod checks;
 pub mod comparison;
 pub mod cross_section;
 pub mod earlier;
@@ -25,6 +26,7 @@ use crate::certificate::Side;
 use crate::crosscheck::Outcome;
 use crate::model::{Class, Model};
 use crate::problem::Sense;
+use crate::problem::checks::Check;
 
 /// Where the problem came from and how it wants to be called.
 #[derive(Debug, Clone, Default)]
@@ -45,6 +47,8 @@ pub struct About {
     pub has_sections: bool,
     /// True where ribs make up a structure, whose axes reports must state.
     pub has_structure: bool,
+    /// Checks by design codes.
+    pub checks: Vec<Check>,
     /// What the reader wants said.
     pub warnings: Vec<String>,
     /// Changes to the file's numbers for this run, as given by `--set`.

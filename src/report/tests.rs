@@ -23,6 +23,7 @@ fn about(sense: Sense) -> About {
         units: vec![("length".into(), "m".into())],
         has_sections: true,
         has_structure: false,
+        checks: Vec::new(),
         warnings: Vec::new(),
         changes: Vec::new(),
     }

@@ -25,7 +25,10 @@ pub(super) fn of(problem: &Problem, constraint: &Constraint) -> Place {
 /// What a row is told apart by says the rest: limits of bars that may vanish are on their forces, which have no point.
 fn complete(place: &mut Place, detail: &str, is_case: impl Fn(&str) -> bool) {
     const WAYS: [&str; 3] = ["tension", "compression", "torsion reversed"];
-    for part in detail.split(", ").filter(|part| !part.is_empty() && !WAYS.contains(part)) {
+    // Signs of moments, stations of other forces and bounds of rows that checks by codes state.
+    const BEGINNINGS: [&str; 6] = ["+M", "-M", "N at ", "chi_", "k_", "as its "];
+    let is_way = |part: &str| WAYS.contains(&part) || BEGINNINGS.iter().any(|beginning| part.starts_with(beginning));
+    for part in detail.split(", ").filter(|part| !part.is_empty() && !is_way(part)) {
         match part.parse::<f64>() {
             _ if is_case(part) => {
                 if place.case.is_empty() {
@@ -103,5 +106,8 @@ mod tests {
         assert_eq!(place, Place { case: "P".into(), station: Some(0.5), point: "centre".into() });
         complete(&mut place, "Q, 1, top", |name| name == "Q");
         assert_eq!((place.case.as_str(), place.station), ("P", Some(0.5)));
+        let mut place = Place::default();
+        complete(&mut place, "P, 0.5, +My, -Mz at 1, N at 0, chi_LT = 1/lambda_LT^2, as its end", |name| name == "P");
+        assert_eq!(place, Place { case: "P".into(), station: Some(0.5), point: String::new() });
     }
 }

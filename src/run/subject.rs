@@ -84,6 +84,7 @@ impl Subject {
             units: problem.units.clone(),
             has_sections: !problem.sections.names.is_empty(),
             has_structure: problem.structure.is_some(),
+            checks: problem.checks.clone(),
             warnings: problem.warnings.iter().cloned().chain(plausible::warnings(problem)).collect(),
             changes: Vec::new(),
         };

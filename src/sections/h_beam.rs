@@ -1,15 +1,22 @@
-//! `h-beam`: a web tw × hw between two flanges b × tf, overall height h = hw + 2·tf.
+//! `h-beam`: a web tw × hw between two flanges b × tf, overall height h = hw + 2·tf; with fillets of radius r where it is given.
 //!
 //! The note's names are b1 = tw, b2 = b, h1 = hw, h2 = h, t = 2·tf = h2 − h1 (2.4).
+
+mod fillets;
+mod outline;
+mod shape;
 
 use super::build::{monomial, radius, symmetric_modulus};
 use super::defaults::{Defaults, FLANGE, FLANGE_THICKNESS, PROPORTION, WEB_AND_FLANGE, WEB_THICKNESS};
 use super::fibre::{CORNERS, Fibre, Points, UPRIGHT, direction, extreme};
 use super::rectangles::{on_axis, plastic_between_flanges, torsion};
-use super::{Form, Given, Kind, Length, evaluate};
+use super::{Form, Given, Kind, Length, QUARTER, evaluate, not_positive};
+use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::expression::operators::Binary;
 use crate::geometry::polygon::Ring;
+use outline::{Halves, pieces, share_of_equal_area};
+use shape::Shape;
 
 /// The doubly symmetric H (or I) beam.
 pub struct HBeam;
@@ -21,71 +28,24 @@ static FORMS: &[Form] = &[
     Form { kind: "h-beam", dimensions: &["b1", "h1", "b2", "t"] },
     Form { kind: "h-beam", dimensions: &["b1", "h1", "b2", "h2"] },
     Form { kind: "h-beam", dimensions: &["b1", "b2", "t", "h2"] },
+    Form { kind: "h-beam", dimensions: &["tw", "hw", "b", "tf", "r"] },
+    Form { kind: "h-beam", dimensions: &["tw", "b", "tf", "h", "r"] },
 ];
 
-/// Web and flanges of each form, in its dimensions.
-static PARTS: [[[Length; 2]; 2]; 6] = [
-    [[Length::of(0), Length::of(1)], [Length::of(2), Length::twice(3)]],
-    [[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
-    [[Length::of(0), Length::difference(3, 2.0, 2)], [Length::of(1), Length::twice(2)]],
-    [[Length::of(0), Length::of(1)], [Length::of(2), Length::of(3)]],
-    [[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
-    [[Length::of(0), Length::difference(3, 1.0, 2)], [Length::of(1), Length::of(2)]],
+/// The fillets' area (4 − π)·r², as a product.
+const ROUNDED: [Length; 2] = [Length { scale: 4.0 - std::f64::consts::PI, plus: 4, minus: None }, Length::of(4)];
+
+/// Web, flanges and fillets of each form, in its dimensions.
+static PARTS: [&[[Length; 2]]; 8] = [
+    &[[Length::of(0), Length::of(1)], [Length::of(2), Length::twice(3)]],
+    &[[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
+    &[[Length::of(0), Length::difference(3, 2.0, 2)], [Length::of(1), Length::twice(2)]],
+    &[[Length::of(0), Length::of(1)], [Length::of(2), Length::of(3)]],
+    &[[Length::of(0), Length::of(1)], [Length::of(2), Length::difference(3, 1.0, 1)]],
+    &[[Length::of(0), Length::difference(3, 1.0, 2)], [Length::of(1), Length::of(2)]],
+    &[[Length::of(0), Length::of(1)], [Length::of(2), Length::twice(3)], ROUNDED],
+    &[[Length::of(0), Length::difference(3, 2.0, 2)], [Length::of(1), Length::twice(2)], ROUNDED],
 ];
-
-/// The five lengths every formula is written in.
-struct Shape {
-    tw: NodeId,
-    hw: NodeId,
-    b: NodeId,
-    /// Thickness of both flanges together.
-    t: NodeId,
-    h: NodeId,
-}
-
-impl Shape {
-    fn of(graph: &mut Graph, given: &Given) -> Option<Shape> {
-        let find = |names: &[&str]| {
-            let at = given.form.dimensions.iter().position(|name| names.contains(name));
-            at.map(|at| given.dimensions[at])
-        };
-        let (tw, b) = (find(&["tw", "b1"])?, find(&["b", "b2"])?);
-        let t = find(&["t"]).or_else(|| find(&["tf"]).map(|tf| graph.scale(2.0, tf)));
-        Some(match (find(&["hw", "h1"]), t, find(&["h", "h2"])) {
-            (Some(hw), Some(t), _) => Shape { tw, hw, b, t, h: graph.add(hw, t) },
-            (Some(hw), None, Some(h)) => Shape { tw, hw, b, t: graph.subtract(h, hw), h },
-            (None, Some(t), Some(h)) => Shape { tw, hw: graph.subtract(h, t), b, t, h },
-            _ => return None,
-        })
-    }
-
-    /// Ix = (tw·hw³ + b·t·(t² + 3·hw² + 3·hw·t))/12: [b·h³ − (b − tw)·hw³]/12 without its cancellation.
-    fn ix(&self, graph: &mut Graph) -> NodeId {
-        let hw3 = graph.power(self.hw, 3.0);
-        let web = graph.multiply(self.tw, hw3);
-        let (t2, hw2, hwt) = (graph.power(self.t, 2.0), graph.power(self.hw, 2.0), graph.multiply(self.hw, self.t));
-        let (hw2, hwt) = (graph.scale(3.0, hw2), graph.scale(3.0, hwt));
-        let square = graph.sum(&[t2, hw2, hwt]);
-        let flange = graph.multiply(self.b, self.t);
-        let flanges = graph.multiply(flange, square);
-        let both = graph.add(web, flanges);
-        graph.scale(1.0 / 12.0, both)
-    }
-
-    /// h − tf, between the flanges' middles: hw + tf.
-    fn arm(&self, graph: &mut Graph) -> NodeId {
-        let tf = graph.scale(0.5, self.t);
-        graph.add(self.hw, tf)
-    }
-
-    /// Iy = (t·b³ + hw·tw³)/12
-    fn iy(&self, graph: &mut Graph) -> NodeId {
-        let (b3, tw3) = (graph.power(self.b, 3.0), graph.power(self.tw, 3.0));
-        let (flanges, web) = (graph.multiply(self.t, b3), graph.multiply(self.hw, tw3));
-        let both = graph.add(flanges, web);
-        graph.scale(1.0 / 12.0, both)
-    }
-}
 
 static DEFAULTS: Defaults = Defaults {
     dimensions: WEB_AND_FLANGE,
@@ -131,6 +91,7 @@ impl Kind for HBeam {
             "b2",
             "h2",
             "t",
+            "r",
             "A",
             "Ix",
             "Iy",
@@ -150,7 +111,8 @@ impl Kind for HBeam {
         ]
     }
 
-    /// J, Asx = 5/6·2·b·tf and Asy = tw·(h − tf) are those of thin walls: within 4 %, 4 % and 5 % of sectionproperties' finite elements.
+    /// J, Asx = 5/6·2·b·tf and Asy = tw·(h − tf) are those of thin walls: within 4 %, 4 % and 5 % of sectionproperties' finite elements;
+    /// with a root radius J is what tables of rolled profiles print. Iw = tf·b³·(h − tf)²/24 with or without.
     fn property(&self, graph: &mut Graph, given: &Given, name: &str) -> Option<NodeId> {
         let shape = Shape::of(graph, given)?;
         Some(match name {
@@ -158,7 +120,8 @@ impl Kind for HBeam {
             "hw" | "h1" => shape.hw,
             "b" | "b2" => shape.b,
             "t" => shape.t,
-            "tf" => graph.scale(0.5, shape.t),
+            "tf" => shape.tf(graph),
+            "r" => shape.fillets.map_or_else(|| graph.constant(0.0), |fillets| fillets.r),
             "h" | "h2" | "height" => shape.h,
             // An H whose web is wider than its flanges is allowed: the wider one counts.
             "width" => graph.binary(Binary::Max, shape.tw, shape.b),
@@ -176,10 +139,7 @@ impl Kind for HBeam {
                 let (iy, width) = (shape.iy(graph), graph.binary(Binary::Max, shape.tw, shape.b));
                 symmetric_modulus(graph, iy, width)
             }
-            "J" => {
-                let tf = graph.scale(0.5, shape.t);
-                torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)])
-            }
+            "J" => torsion_constant(graph, &shape),
             "Asx" => monomial(graph, 5.0 / 6.0, &[(shape.b, 1.0), (shape.t, 1.0)]),
             "Asy" => {
                 let tf = graph.scale(0.5, shape.t);
@@ -187,11 +147,14 @@ impl Kind for HBeam {
                 graph.multiply(shape.tw, middle)
             }
             "Wplx" => {
-                let (tf, arm) = (graph.scale(0.5, shape.t), shape.arm(graph));
-                plastic_between_flanges(graph, [shape.b, tf, arm], [shape.tw, shape.hw], 1.0)
+                let (tf, arm) = (shape.tf(graph), shape.arm(graph));
+                let plain = plastic_between_flanges(graph, [shape.b, tf, arm], [shape.tw, shape.hw], 1.0);
+                shape.with_fillets(graph, plain, |fillets, graph, shape| fillets.first_moment(graph, shape.hw, -1.0))
             }
-            "Wply" => on_axis(graph, &[(shape.b, shape.t), (shape.tw, shape.hw)]),
-            // tf·b³·(h − tf)²/24
+            "Wply" => {
+                let plain = on_axis(graph, &[(shape.b, shape.t), (shape.tw, shape.hw)]);
+                shape.with_fillets(graph, plain, |fillets, graph, shape| fillets.first_moment(graph, shape.tw, 1.0))
+            }
             "Iw" => {
                 let arm = shape.arm(graph);
                 monomial(graph, 1.0 / 48.0, &[(shape.t, 1.0), (shape.b, 3.0), (arm, 2.0)])
@@ -201,7 +164,8 @@ impl Kind for HBeam {
                 let double = graph.scale(2.0, shape.b);
                 let sum = graph.add(double, shape.h);
                 let open = graph.subtract(sum, shape.tw);
-                graph.scale(2.0, open)
+                let plain = graph.scale(2.0, open);
+                shape.with_fillets(graph, plain, |fillets, graph, _| fillets.shortened(graph))
             }
             _ => return radius(self, graph, given, name),
         })
@@ -235,6 +199,10 @@ impl Kind for HBeam {
         if point == "web-centre" {
             let web = monomial(graph, 0.125, &[(shape.tw, 1.0), (shape.hw, 2.0)]);
             statical = graph.add(statical, web);
+            statical = shape.with_fillets(graph, statical, |fillets, graph, shape| {
+                let both_sides = fillets.first_moment(graph, shape.hw, -1.0);
+                graph.scale(0.5, both_sides)
+            });
         }
         let mut fibre = Fibre::at(graph.constant(0.0), y);
         fibre.per_vz = Some(monomial(graph, 1.0, &[(statical, 1.0), (inertia, -1.0), (shape.tw, -1.0)]));
@@ -244,37 +212,69 @@ impl Kind for HBeam {
 
     fn parts(&self, graph: &mut Graph, given: &Given) -> Vec<NodeId> {
         let Some(shape) = Shape::of(graph, given) else { return Vec::new() };
-        vec![graph.multiply(shape.tw, shape.hw), graph.multiply(shape.b, shape.t)]
+        let mut parts = vec![graph.multiply(shape.tw, shape.hw), graph.multiply(shape.b, shape.t)];
+        parts.extend(shape.fillets.map(|fillets| fillets.area(graph)));
+        parts
     }
 
     fn part_factors(&self, form: &Form) -> &'static [[Length; 2]] {
-        FORMS.iter().position(|known| known == form).map_or(&[], |at| &PARTS[at])
+        FORMS.iter().position(|known| known == form).map_or(&[], |at| PARTS[at])
     }
 
     fn positive(&self) -> &'static [&'static str] {
         &["hw", "tf"]
     }
 
+    fn absent(&self, dimension: &str) -> bool {
+        dimension == "r"
+    }
+
+    /// Fillets that do not fit between the flanges, or beside the web.
+    fn defect(&self, form: &Form, given: &[f64], outline: &[Ring]) -> Option<String> {
+        let of = |name| evaluate(self, form, given, outline, name);
+        let too_large = || {
+            let (r, hw, b, tw) = (of("r")?, of("hw")?, of("b")?, of("tw")?);
+            let most = (hw / 2.0).min((b - tw) / 2.0);
+            (r > most)
+                .then(|| format!("r is {}; between the flanges and beside the web there is room for {}", plain(r), plain(most)))
+        };
+        let rounded = form.dimensions.contains(&"r");
+        not_positive(self.name(), form, given, outline).or_else(|| rounded.then(too_large).flatten())
+    }
+
     fn posynomial_volume(&self, form: &Form) -> bool {
         !form.dimensions.iter().any(|name| ["h", "h2"].contains(name))
     }
 
-    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], _: f64) -> Vec<Ring> {
-        let half = |name| evaluate(self, form, given, outline, name).map(|value| value / 2.0);
-        let (Some(w), Some(y), Some(x), Some(top)) = (half("tw"), half("hw"), half("b"), half("h")) else { return Vec::new() };
-        vec![vec![
-            [-x, -top],
-            [x, -top],
-            [x, -y],
-            [w, -y],
-            [w, y],
-            [x, y],
-            [x, top],
-            [-x, top],
-            [-x, y],
-            [-w, y],
-            [-w, -y],
-            [-x, -y],
-        ]]
+    fn rings(&self, form: &Form, given: &[f64], outline: &[Ring], tolerance: f64) -> Vec<Ring> {
+        let drawn = |(halves, r): (Halves, f64)| match r > 0.0 {
+            true => halves.rounded(r, pieces(r, tolerance), 1.0),
+            false => halves.sharp(),
+        };
+        halves(form, given, outline).map(drawn).into_iter().collect()
     }
+
+    fn matching_rings(&self, form: &Form, given: &[f64], outline: &[Ring]) -> Vec<Ring> {
+        let drawn = |(halves, r): (Halves, f64)| match r > 0.0 {
+            true => halves.rounded(r, QUARTER, share_of_equal_area(QUARTER)),
+            false => halves.sharp(),
+        };
+        halves(form, given, outline).map(drawn).into_iter().collect()
+    }
+}
+
+/// Of thin walls, or with the fillets.
+fn torsion_constant(graph: &mut Graph, shape: &Shape) -> NodeId {
+    let tf = shape.tf(graph);
+    match &shape.fillets {
+        Some(fillets) => fillets.torsion(graph, [shape.b, tf], [shape.hw, shape.tw]),
+        None => torsion(graph, &[(shape.b, tf), (shape.b, tf), (shape.hw, shape.tw)]),
+    }
+}
+
+/// Half lengths and the root radius at numeric dimensions.
+fn halves(form: &Form, given: &[f64], outline: &[Ring]) -> Option<(Halves, f64)> {
+    let of = |name| evaluate(&HBeam, form, given, outline, name);
+    let half = |name| of(name).map(|value| value / 2.0);
+    Some((Halves { web: half("tw")?, clear: half("hw")?, flange: half("b")?, height: half("h")? }, of("r")?))
 }

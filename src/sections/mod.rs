@@ -14,6 +14,7 @@ mod fibre;
 mod general;
 mod h_beam;
 mod i_section;
+mod length;
 mod outline;
 mod pieces;
 mod polygon;
@@ -33,6 +34,7 @@ use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
 pub use defaults::Defaults;
 pub use fibre::{Fibre, Points};
+pub use length::Length;
 
 /// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it is drawn by points.
 pub struct Given<'a> {
@@ -51,34 +53,6 @@ pub struct Form {
     pub kind: &'static str,
     /// Names of the given dimensions, in order.
     pub dimensions: &'static [&'static str],
-}
-
-/// A length made of a form's dimensions d: `scale · (d[plus] − factor · d[minus])`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Length {
-    /// What the whole is multiplied by.
-    pub scale: f64,
-    /// Position of the first dimension.
-    pub plus: usize,
-    /// Factor and position of the dimension taken off. Only the second length of a part may have one.
-    pub minus: Option<(f64, usize)>,
-}
-
-impl Length {
-    /// The dimension at this position.
-    pub const fn of(plus: usize) -> Length {
-        Length { scale: 1.0, plus, minus: None }
-    }
-
-    /// Twice the dimension at this position.
-    pub const fn twice(plus: usize) -> Length {
-        Length { scale: 2.0, plus, minus: None }
-    }
-
-    /// The dimension at `plus` less `factor` times the one at `minus`.
-    pub const fn difference(plus: usize, factor: f64, minus: usize) -> Length {
-        Length { scale: 1.0, plus, minus: Some((factor, minus)) }
-    }
 }
 
 /// A kind of cross-section.
@@ -131,6 +105,11 @@ pub trait Kind: Sync {
     /// Dimensions (by property name) that must stay positive for the section to exist, besides the given ones: `tf` of an H beam.
     fn positive(&self) -> &'static [&'static str] {
         &[]
+    }
+
+    /// May this dimension be given as 0, which is as good as leaving it out: the root radius of an H beam?
+    fn absent(&self, _dimension: &str) -> bool {
+        false
     }
 
     /// Is a rib's frustum volume a posynomial of the dimensions given in this form (for `superellipse`: with one fixed r)?

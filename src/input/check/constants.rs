@@ -41,7 +41,7 @@ impl Assembly<'_> {
         for remark in report.mistakes {
             self.findings.mistake(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
-        for remark in report.warnings {
+        for remark in report.warnings.into_iter().filter(|_| !self.quiet) {
             self.findings.warning(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
         for column in report.used {

@@ -94,6 +94,10 @@ impl Assembly<'_> {
             return None;
         }
         let s = self.problem.sections.names.len() as u32;
+        let is_left_out = |one: &Given| {
+            matches!(one.value, GivenValue::Fixed(value) if value == 0.0) && kind.is_some_and(|kind| kind.absent(one.name))
+        };
+        let given: Vec<Given> = given.into_iter().filter(|one| !is_left_out(one)).collect();
         let form = kind.and_then(|kind| self.form(name, kind, &given));
         let known_form = form;
         let fallback = || kind.unwrap_or(sections::KINDS[0]).forms().first();

@@ -1,5 +1,6 @@
 //! From the file as declared to the checked problem: names looked up, numbers computed, sizes compared.
 
+mod checks;
 mod constants;
 mod constraints;
 mod data;
@@ -66,6 +67,8 @@ pub(super) struct Assembly<'a> {
     choice: spread::Choice,
     /// What a table could not give.
     without: Without,
+    /// Whether the text at hand was written by a check: the user cannot do anything about what it hides or states in vain.
+    quiet: bool,
 }
 
 /// What tables could not give: what is missing for that reason is no further mistake.
@@ -106,6 +109,7 @@ pub(super) fn check(
     assembly.links(&declared.definitions);
     assembly.objective(&declared);
     assembly.constraints(&declared.constraints);
+    assembly.checks(&declared.checks);
     assembly.check_existence();
     assembly.say_unused();
     assembly.say_unused_cases();
@@ -151,6 +155,7 @@ impl<'a> Assembly<'a> {
             building: structure::Building::default(),
             choice: spread::Choice::default(),
             without: Without::default(),
+            quiet: false,
         }
     }
 

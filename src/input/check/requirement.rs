@@ -127,6 +127,7 @@ impl Assembly<'_> {
         };
         let failing = rows(scope).find(|(item, group)| !holds(*item, *group)).map(|(item, _)| item);
         match failing {
+            None if self.quiet => {}
             None => {
                 let message = format!("constraint `{name}` has no variables and always holds");
                 self.findings.warning(written.place, message, "it is left out");

@@ -28,6 +28,11 @@ pub(super) struct Choice {
 }
 
 impl Choice {
+    /// The station of properties that name none.
+    pub(super) fn at(station: Option<f64>) -> Choice {
+        Choice { station, ..Choice::default() }
+    }
+
     pub(super) fn chosen(&self) -> Chosen<'_> {
         Chosen { case: self.case, station: self.station, point: self.point.as_deref(), sign: self.sign, item: self.item }
     }
@@ -107,7 +112,7 @@ impl Assembly<'_> {
     }
 
     /// The cases a constraint is repeated for; one `None` where it names none.
-    fn cases(&mut self, patterns: &[Written]) -> Option<Vec<Option<u32>>> {
+    pub(super) fn cases(&mut self, patterns: &[Written]) -> Option<Vec<Option<u32>>> {
         if patterns.is_empty() {
             return Some(vec![None]);
         }

@@ -11,6 +11,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
+use super::checks::Said;
 use super::{Findings, Volumes};
 use conflict::ConflictPart;
 pub use mistakes::{Mistake, write_mistakes};
@@ -107,6 +108,9 @@ impl Tail<'_> {
         map.serialize_entry("direction", &outcome.direction.as_ref().map(|x| NamedValues { findings, x }))?;
         map.serialize_entry("runaway", &names(&outcome.runaway, |j| findings.model.variable_name(j)))?;
         map.serialize_entry("minima", &MinimaPart(findings))?;
+        if !findings.about.checks.is_empty() {
+            map.serialize_entry("checks", &Said(&findings.about.checks))?;
+        }
         map.serialize_entry("warnings", &findings.about.warnings)?;
         map.serialize_entry("mistakes", &[(); 0])
     }

@@ -7,6 +7,7 @@ mod governing;
 
 use std::io::{self, Write};
 
+use super::checks;
 use super::number::{percent, short, significant};
 use super::text::{TextTable, count, plain, shortened};
 use super::{Findings, Volumes};
@@ -37,6 +38,7 @@ pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     }
     conflict::write(findings, out)?;
     volumes(findings, out)?;
+    checks::write_titles(&findings.about.checks, out)?;
     minima(findings, out)?;
     backends::write(findings, out)
 }

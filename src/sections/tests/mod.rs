@@ -30,6 +30,8 @@ const CASES: &[Case] = &[
     Case { kind: "rectangle", form: 0, given: &[0.2, 0.5], outline: &[] },
     Case { kind: "h-beam", form: 0, given: &[0.02, 0.4, 0.3, 0.03], outline: &[] },
     Case { kind: "h-beam", form: 4, given: &[0.02, 0.4, 0.3, 0.46], outline: &[] },
+    Case { kind: "h-beam", form: 6, given: &[0.02, 0.4, 0.3, 0.03, 0.05], outline: &[] },
+    Case { kind: "h-beam", form: 7, given: &[0.02, 0.3, 0.03, 0.46, 0.05], outline: &[] },
     Case { kind: "superellipse", form: 0, given: &[0.3, 0.5, 2.5], outline: &[] },
     Case { kind: "superellipse", form: 0, given: &[0.3, 0.2, 0.8], outline: &[] },
     Case { kind: "tee", form: 0, given: &[0.02, 0.4, 0.3, 0.03], outline: &[] },
@@ -82,7 +84,7 @@ impl Case {
     }
 
     fn curved(&self) -> bool {
-        ["superellipse", "circle", "tube"].contains(&self.kind)
+        ["superellipse", "circle", "tube"].contains(&self.kind) || self.form().dimensions.contains(&"r") && self.kind == "h-beam"
     }
 }
 
@@ -158,7 +160,14 @@ fn parts_make_up_the_area() {
             assert!((length(first) * length(second) - graph.as_constant(*part).unwrap()).abs() < 1e-15, "{}", case.kind);
         }
         let count = match case.kind {
-            "h-beam" | "tee" | "angle" => 2,
+            "h-beam" => {
+                if case.form().dimensions.contains(&"r") {
+                    3
+                } else {
+                    2
+                }
+            }
+            "tee" | "angle" => 2,
             "i-section" | "channel" => 3,
             _ => 1,
         };
@@ -246,7 +255,7 @@ fn posynomial_volumes_are_told_by_form() {
         let kind = kind(name).unwrap();
         kind.forms().iter().map(|form| kind.posynomial_volume(form)).collect::<Vec<_>>()
     };
-    assert_eq!(of("h-beam"), [true, false, false, true, false, false]);
+    assert_eq!(of("h-beam"), [true, false, false, true, false, false, true, false]);
     assert_eq!(of("tee"), [true, false, false]);
     assert_eq!((of("box"), of("tube"), of("polygon")), (vec![false], vec![false], vec![true, true]));
 }
