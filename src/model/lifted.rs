@@ -167,18 +167,12 @@ impl Lifted {
         self.modes()?.below(z, pencil, limit)
     }
 
-    /// wᵀSw of S = K − B/μ at a limit, by design and displacements, and its value; `None` where it is not affine in them.
+    /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
     ///
     /// # Errors
     /// As [`Lifted::spectrum`].
-    pub fn affine_cut(
-        &self,
-        z: &[f64],
-        w: &[f64],
-        pencil: Pencil,
-        limit: f64,
-    ) -> Result<Option<(Vec<f64>, f64)>, EvaluationError> {
-        self.modes()?.affine_cut(z, w, pencil, limit)
+    pub fn cut(&self, z: &[f64], w: &[f64], pencil: Pencil, limit: f64) -> Result<(Vec<f64>, f64), EvaluationError> {
+        self.modes()?.cut(z, w, pencil, limit)
     }
 
     fn modes(&self) -> Result<&Modes, EvaluationError> {

@@ -13,7 +13,7 @@ use crate::crosscheck::Outcome;
 use crate::expression::operators::{Binary, Fold};
 use crate::model::EvaluationError;
 use crate::problem::modes::{Limited, Pencil, limited};
-use crate::problem::{Constraint, Formula, Limit};
+use crate::problem::{Constraint, Dimension, Formula, Limit, Problem};
 
 /// Rounds of cutting planes; each brings the bound up.
 const ROUNDS: usize = 12;
@@ -32,7 +32,7 @@ pub(super) fn relaxed(
 ) -> Option<Outcome> {
     let problem = subject.problem();
     let limits: Vec<Limited> = limited(problem).into_iter().filter(|limit| limit.pencil == Pencil::Vibration).collect();
-    if limits.is_empty() || limits.len() != limited(problem).len() {
+    if limits.is_empty() || limits.len() != limited(problem).len() || !is_affine(problem) {
         return None;
     }
     let mut rest = problem.clone();
@@ -44,7 +44,7 @@ pub(super) fn relaxed(
     let (mut point, mut best) = (x.to_vec(), None);
     for _ in 0..ROUNDS {
         for limit in limits.iter().filter(|limit| limit.number == 1) {
-            rest.constraints.extend(cuts(subject, limit, &point).ok()??);
+            rest.constraints.extend(cuts(subject, limit, &point).ok()?);
         }
         let relaxed = subject.with_problem(rest.clone()).ok().filter(|relaxed| relaxed.class().is_global())?;
         let found = solved_alone(&relaxed, &relaxed.completed(point.clone()), interrupt);
@@ -58,17 +58,29 @@ pub(super) fn relaxed(
     best
 }
 
-/// Affine rows that hold wherever the limit does, by the lowest modes at a design; `None` where K or M is not affine in the design.
-fn cuts(subject: &Subject, limit: &Limited, x: &[f64]) -> Result<Option<Vec<Constraint>>, EvaluationError> {
-    let Some(model) = subject.analysis() else { return Ok(None) };
+/// Whether K and M are affine in the design: prismatic bars between nodes that stay, of one modulus, whose areas are variables themselves.
+fn is_affine(problem: &Problem) -> bool {
+    let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else { return false };
+    let given = |section: u32| matches!(problem.given_dimension(section, "A"), Some(Dimension::Variable(_) | Dimension::Constant(_)));
+    structure.members.iter().zip(&statics.members).all(|(member, prepared)| {
+        let [from, to] = [&problem.ribs.from, &problem.ribs.to].map(|ends| ends[member.rib as usize]);
+        let young = structure.materials[member.material as usize].young;
+        let area = from == to && given(from);
+        member.absent || member.pinned && prepared.fixed && area && matches!(young, Dimension::Constant(_))
+    })
+}
+
+/// Affine rows that hold wherever the limit does, by the lowest modes at a design.
+fn cuts(subject: &Subject, limit: &Limited, x: &[f64]) -> Result<Vec<Constraint>, EvaluationError> {
+    let Some(model) = subject.analysis() else { return Ok(Vec::new()) };
     let z = model.solved(x)?;
     let vectors = model.lifted().spectrum(&z, limit.pencil)?.vectors;
     let mut rows = Vec::new();
     for w in vectors.iter().take(MODES) {
-        let Some((slope, value)) = model.lifted().affine_cut(&z, w, limit.pencil, limit.limit)? else { return Ok(None) };
+        let (slope, value) = model.lifted().cut(&z, w, limit.pencil, limit.limit)?;
         rows.push(row(&subject.problem().constraints[limit.constraint], &slope[..x.len()], value, x));
     }
-    Ok(Some(rows))
+    Ok(rows)
 }
 
 /// value + slope·(x − at) ≥ 0

@@ -86,11 +86,6 @@ impl Energies {
         self.model.meta().variables() - self.before
     }
 
-    /// Whether every energy is affine in design and displacements: no second derivative by two of them can differ from zero.
-    pub fn is_affine(&self) -> bool {
-        self.model.meta().hessian.iter().all(|(row, _)| row >= self.before)
-    }
-
     /// The variables among design and displacements that a pencil depends on.
     pub fn columns(&self, pencil: Pencil) -> Vec<u32> {
         let jacobian = &self.model.meta().jacobian;

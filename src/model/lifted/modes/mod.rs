@@ -93,20 +93,11 @@ impl Modes {
         Ok(matrix.negative_eigenvalues())
     }
 
-    /// wᵀSw of S = K − B/μ at a limit: slope and value, where it is affine.
-    pub fn affine_cut(
-        &self,
-        z: &[f64],
-        w: &[f64],
-        pencil: Pencil,
-        limit: f64,
-    ) -> Result<Option<(Vec<f64>, f64)>, EvaluationError> {
+    /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
+    pub fn cut(&self, z: &[f64], w: &[f64], pencil: Pencil, limit: f64) -> Result<(Vec<f64>, f64), EvaluationError> {
         let share = -1.0 / pencil.inverse(limit);
-        if !self.energies.is_affine() {
-            return Ok(None);
-        }
         let matrix = self.energies.matrix(z, pencil, 1.0, share)?;
-        Ok(Some((self.energies.slope(z, w, pencil, 1.0, share)?, dot(w, &matrix.times(w)))))
+        Ok((self.energies.slope(z, w, pencil, 1.0, share)?, dot(w, &matrix.times(w))))
     }
 
     /// K·v at design and displacements.
