@@ -29,7 +29,6 @@ use crate::run::unobserved::unobserved;
 /// ```
 pub fn solve(model: &dyn Model, settings: &Settings) -> Result<Outcome, RunError> {
     let choices = choose(&[], None, settings)?;
-    refuse_if_none_accepts(&choices, model)?;
     let start = model.meta().start.clone();
     let task = Task {
         model,
@@ -41,6 +40,7 @@ pub fn solve(model: &dyn Model, settings: &Settings) -> Result<Outcome, RunError
         starts: 1,
         interrupt: None,
     };
+    refuse_if_none_accepts(&choices, &task)?;
     Ok(unobserved(&task, &choices))
 }
 

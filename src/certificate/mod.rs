@@ -26,7 +26,7 @@ mod types;
 use feasibility::{Feasibility, worst_violation};
 use std::time::Instant;
 
-use multipliers::Multipliers;
+use multipliers::{Multipliers, Taken};
 use newton::Newton;
 use point::{Origin, Point};
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
@@ -147,11 +147,12 @@ impl<'a> Certifier<'a> {
         witness: Option<&[f64]>,
         feasibility: &Feasibility,
     ) -> (Multipliers, Certificate) {
-        if let Some(offered) = witness.and_then(|witness| multipliers::from_witness(point, witness))
-            && feasibility.infeasibility <= self.tolerances.constraint
-            && let Some(passed) = self.tested(point, offered, feasibility)
-        {
-            return passed;
+        if let Some(witness) = witness.filter(|_| feasibility.infeasibility <= self.tolerances.constraint) {
+            let offers = [Taken::Active, Taken::Near].into_iter();
+            let mut offers = offers.filter_map(|taken| multipliers::from_witness(point, witness, taken));
+            if let Some(passed) = offers.find_map(|offered| self.tested(point, offered, feasibility)) {
+                return passed;
+            }
         }
         let found = multipliers::find(point, witness);
         let mut certificate = self.first_order(point, &found, feasibility);

@@ -18,18 +18,42 @@ pub(super) struct Multipliers {
     pub(super) bounds: Vec<f64>,
 }
 
-/// What a solver's row multipliers say at the point: those of limits within reach and of the right sign are taken as they are,
+/// Which limits a solver's multipliers are taken from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// Those whose multiplier outweighs the distance, both relative: the active ones by strict complementarity. What a barrier leaves on all
+    /// others is none of a minimum's.
+    Active,
+    /// All within reach.
+    Near,
+}
+
+impl Taken {
+    fn takes(self, candidate: &Candidate, multiplier: f64, unit: f64) -> bool {
+        candidate.carries(multiplier)
+            && (self == Taken::Near || candidate.sign == 0.0 || multiplier.abs() * unit >= candidate.distance)
+    }
+}
+
+/// What a solver's row multipliers say at the point: those of limits taken and of the right sign are taken as they are,
 /// bounds take up what is left. Evidence only in so far as the sums that prove stationarity are then computed anew.
-pub(super) fn from_witness(point: &Point<'_>, witness: &[f64]) -> Option<Multipliers> {
+pub(super) fn from_witness(point: &Point<'_>, witness: &[f64], taken: Taken) -> Option<Multipliers> {
     if witness.len() != point.rows.len() || !witness.iter().all(|y| y.is_finite()) {
         return None;
     }
     let usable = |i: usize| {
-        let y = witness[i];
-        if y != 0.0 && point.slopes[i] > 0.0 && candidates::row(point, i).any(|candidate| candidate.carries(y)) { y } else { 0.0 }
+        let (y, unit) = (witness[i], point.slopes[i] / point.scale());
+        let is_usable = y != 0.0 && unit > 0.0 && candidates::row(point, i).any(|candidate| taken.takes(&candidate, y, unit));
+        if is_usable { y } else { 0.0 }
     };
     let rows: Vec<f64> = (0..witness.len()).map(usable).collect();
-    let bounds = bound_multipliers(point, &point.row_gradient(&rows));
+    let mut bounds = bound_multipliers(point, &point.row_gradient(&rows));
+    for (j, z) in bounds.iter_mut().enumerate().filter(|(_, z)| **z != 0.0) {
+        let unit = point.sizes[j] / point.scale();
+        if !candidates::bounds(point, j).any(|candidate| taken.takes(&candidate, *z, unit)) {
+            *z = 0.0;
+        }
+    }
     Some(Multipliers { rows, bounds })
 }
 

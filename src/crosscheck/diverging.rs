@@ -83,10 +83,12 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     answers.iter().find_map(overrules)
 }
 
-/// Whether a point lies so far from the start that rounding may hide a violation of the rows.
+/// Whether a point lies so far from the start that rounding may hide a violation of the rows. States follow from the design, and may start next to
+/// nothing by chance.
 pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
-    let start = &session.task.model.meta().start;
-    x.iter().zip(start).any(|(x, &start)| (x - start).abs() > TOO_FAR * size(start))
+    let meta = session.task.model.meta();
+    let design = meta.states.map_or(x.len(), |states| states.first_variable);
+    x.iter().zip(&meta.start).take(design).any(|(x, &start)| (x - start).abs() > TOO_FAR * size(start))
 }
 
 /// The size of a variable that starts here.

@@ -13,7 +13,7 @@ use super::seeds::Seeds;
 use super::session::{Session, Solver};
 use super::work::{self, Allowance};
 use crate::certificate::{Certificate, Certifier, contradiction};
-use crate::model::{Elastic, Model};
+use crate::model::{Elastic, Model, Substitution};
 
 /// Less than this share of a variable's size is rounding.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -77,6 +77,7 @@ struct Work<'a> {
     /// The cheapest first.
     solvers: Vec<Solver<'a>>,
     model: &'a dyn Model,
+    other: Option<&'a dyn Substitution>,
     allowance: RefCell<Allowance>,
     /// What explains the minimum may spend, each of its phases.
     explanation: f64,
@@ -114,7 +115,12 @@ impl<'a> Work<'a> {
         let cost = solvers.iter().map(|&solver| session.cost(solver)).fold(f64::INFINITY, f64::min);
         let first = ledger.least_first_work();
         let allowance = RefCell::new(Allowance::new(work::elastic_phase(first, cost)));
-        Work { session, solvers, model: session.working_model(), allowance, explanation: work::explanation(first, cost) }
+        // States and their equations are sparse: who takes them decides.
+        let takes_states = |solver: &&Solver<'_>| solver.backend.takes_states();
+        let decides = solvers.iter().find(takes_states).or(solvers.first());
+        let other = decides.and_then(|solver| session.task.substitution_for(solver.backend));
+        let model = other.map_or(session.task.model, |other| other.model());
+        Work { session, solvers, model, other, allowance, explanation: work::explanation(first, cost) }
     }
 
     /// Whether the class makes every stationary point of the elastic problem its least.
@@ -123,11 +129,11 @@ impl<'a> Work<'a> {
     }
 
     fn inward(&self, x: &[f64]) -> Vec<f64> {
-        self.session.task.substitution.map_or_else(|| x.to_vec(), |other| other.inward(x))
+        self.other.map_or_else(|| x.to_vec(), |other| other.inward(x))
     }
 
     fn outward(&self, z: &[f64]) -> Vec<f64> {
-        let mut x = self.session.task.substitution.map_or_else(|| z.to_vec(), |other| other.outward(z));
+        let mut x = self.other.map_or_else(|| z.to_vec(), |other| other.outward(z));
         self.session.task.model.meta().clamp(&mut x);
         x
     }

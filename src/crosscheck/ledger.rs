@@ -42,7 +42,7 @@ impl<'r, 'o> Ledger<'r, 'o> {
         multipliers: Option<&[f64]>,
     ) -> Answer {
         let (session, solver) = (self.session, self.solvers[k]);
-        let mut budget = session.budget(solver, session.working_model(), allowed);
+        let mut budget = session.budget(solver, session.task.model_for(solver.backend), allowed);
         budget.deadline = session.clock.share(0.9, seconds.min(work::fence(allowed))).deadline;
         self.attempts[k] += 1;
         let mut observer: Box<dyn FnMut(&Iteration<'_>) + '_> = (self.observers)(k, solver.algorithm);

@@ -44,7 +44,7 @@ fn from_seed(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], see
         if session.clock.is_over() {
             break;
         }
-        let budget = session.budget(solvers[k], session.working_model(), allowed);
+        let budget = session.budget(solvers[k], session.task.model_for(solvers[k].backend), allowed);
         let answer = session.attempt(solvers[k], &start, None, budget, &mut |_| {});
         let certified = answer.is_certified();
         if best.as_ref().is_none_or(|best| session.is_better(&answer, &best.answer)) {

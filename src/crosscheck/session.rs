@@ -5,7 +5,7 @@ use super::{Answer, Task};
 use super::{pool, work};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
-use crate::model::{Budget, Class, Model, Substitution};
+use crate::model::{Budget, Class, Model};
 
 /// A solver may stop where the certificate holds with this much to spare: answers are usually far better than what is accepted.
 const SPARE: f64 = 1e-3;
@@ -47,24 +47,9 @@ impl<'a> Session<'a> {
         Session { task, judge: judge(tolerances), strict, tolerances, clock }
     }
 
-    /// The model backends work on: the substituted one, where there is one (there, geometric programs are convex).
-    pub(super) fn working_model(&self) -> &'a dyn Model {
-        self.task.substitution.map_or(self.task.model, |other| other.model())
-    }
-
-    /// The other variables a backend solves in: states beside the design only where it takes them.
-    fn substitution(&self, solver: Solver<'_>) -> Option<&'a dyn Substitution> {
-        let states = |model: &dyn Model| model.meta().states.is_some();
-        let own = states(self.task.model);
-        let takes =
-            |other: &&'a dyn Substitution| states(other.model()) == own || states(other.model()) == solver.backend.takes_states();
-        self.task.substitution.filter(takes)
-    }
-
-    /// Work one evaluation of the working model costs a backend.
+    /// Work one evaluation of the model it works on costs a backend.
     pub(super) fn cost(&self, solver: Solver<'_>) -> f64 {
-        let model = self.substitution(solver).map_or(self.task.model, |other| other.model());
-        solver.backend.work_per_evaluation(model).max(1.0)
+        solver.backend.work_per_evaluation(self.task.model_for(solver.backend)).max(1.0)
     }
 
     /// A budget of so much work on `model`, with a deadline far beyond what that should take.
@@ -87,7 +72,7 @@ impl<'a> Session<'a> {
         let mut start = start.to_vec();
         self.task.model.complete(&mut start);
         let start = start.as_slice();
-        let Some(other) = self.substitution(solver) else {
+        let Some(other) = self.task.substitution_for(solver.backend) else {
             let stop = |x: &[f64]| self.strict.accepts(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
             let start = Start { x: start, multipliers, budget, stop: &stop, part: Some(&part) };

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::start::MovedStart;
-use crate::backends::{Iteration, Solution};
+use crate::backends::{Backend, Iteration, Solution};
 use crate::certificate::{Certificate, Extent};
 use crate::model::{Class, Limit, Model, Own, Substitution};
 use crate::problem::Settings;
@@ -27,6 +27,22 @@ pub struct Task<'a> {
     pub starts: usize,
     /// Set by Ctrl-C.
     pub interrupt: Option<&'a AtomicBool>,
+}
+
+impl<'a> Task<'a> {
+    /// The other variables a backend solves in: states beside the design only where it takes them.
+    pub(super) fn substitution_for(&self, backend: &dyn Backend) -> Option<&'a dyn Substitution> {
+        let states = |model: &dyn Model| model.meta().states.is_some();
+        let own = states(self.model);
+        let takes =
+            |other: &&'a dyn Substitution| states(other.model()) == own || states(other.model()) == backend.takes_states();
+        self.substitution.filter(takes)
+    }
+
+    /// The model a backend works on: the substituted one, where there is one for it (there, geometric programs are convex).
+    pub fn model_for(&self, backend: &dyn Backend) -> &'a dyn Model {
+        self.substitution_for(backend).map_or(self.model, |other| other.model())
+    }
 }
 
 /// Makes the observer of one run, given the backend's place in the list and its algorithm as asked for. Points arrive in the

@@ -129,6 +129,14 @@ impl Symmetric {
         }
         Ok(x)
     }
+
+    /// The same to the accuracy of the factors alone: for steps that are corrected by further ones.
+    pub fn solve_once(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+        let Solver::Sparse(solver) = &self.solver else { return self.solve(right) };
+        let mut x = vec![0.0; right.len()];
+        solver.solve_once(right, &mut x)?;
+        Ok(x)
+    }
 }
 
 fn sparse(pattern: &Pattern) -> Result<Solver, FactorizationError> {

@@ -76,10 +76,6 @@ impl<'a> Evaluator<'a> {
         self.meta().names.row(i)
     }
 
-    fn may_go_on(&self) -> Result<(), EvaluationError> {
-        self.budget.check(self.evaluations()).map_err(EvaluationError::Stopped)
-    }
-
     fn count_one(&self) -> Result<(), EvaluationError> {
         self.may_go_on()?;
         self.evaluations.fetch_add(1, Relaxed);
@@ -90,6 +86,10 @@ impl<'a> Evaluator<'a> {
 impl Model for Evaluator<'_> {
     fn meta(&self) -> &Meta {
         self.model.meta()
+    }
+
+    fn may_go_on(&self) -> Result<(), EvaluationError> {
+        self.budget.check(self.evaluations()).map_err(EvaluationError::Stopped)
     }
 
     fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {

@@ -93,10 +93,12 @@ impl Lifted {
         Ok(lifted)
     }
 
-    /// Starts at the analysed start of the design. A case's largest displacement there, and its largest rotation, are the magnitudes of all.
+    /// Starts at the analysed start of the design. A case's largest displacement there, and its largest rotation, are the magnitudes of all,
+    /// when all have grown until the first limit is met.
     fn start_analysed(&mut self) {
         let mut start = self.meta().start.clone();
         self.complete(&mut start);
+        let growth = self.growth_to_limits(&start).unwrap_or(1.0);
         let mut typical = self.meta().typical.clone();
         let n = self.states.first_variable;
         for case in 0..self.states.blocks {
@@ -104,11 +106,31 @@ impl Lifted {
             for turns in [false, true] {
                 let alike = |state: &usize| (self.direction(*state).1 >= 3) == turns;
                 let chosen = || (0..self.states.block).filter(alike).map(|state| of_case + state);
-                let largest = chosen().map(|at| start[at].abs()).fold(0.0, f64::max);
+                let largest = chosen().map(|at| growth * start[at].abs()).fold(0.0, f64::max);
                 chosen().for_each(|at| typical[at] = largest);
             }
         }
         self.model.start_at(start, typical);
+    }
+
+    /// By which factor all states may grow until the first row, linear in them, meets its limit. `None` where no row limits them.
+    fn growth_to_limits(&self, z: &[f64]) -> Option<f64> {
+        let meta = self.meta();
+        let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+        let mut at = self.at(z).ok()?;
+        at.constraints(&mut rows).ok()?;
+        at.jacobian(&mut jacobian).ok()?;
+        let growth = |row: usize| {
+            let along = |at: usize| {
+                let column = meta.jacobian.columns[at] as usize;
+                if column < self.states.first_variable { 0.0 } else { jacobian[at] * z[column] }
+            };
+            let slope: f64 = meta.jacobian.range(row).map(along).sum();
+            let limit = if slope > 0.0 { meta.row_upper[row] } else { meta.row_lower[row] };
+            1.0 + (limit - rows[row]) / slope
+        };
+        let factors = (0..self.states.first_row).map(growth).filter(|factor| *factor > 0.0 && factor.is_finite());
+        factors.min_by(f64::total_cmp)
     }
 
     /// Its states.

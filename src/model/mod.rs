@@ -158,6 +158,14 @@ pub trait Model: Sync {
         Ok(Box::new(evaluation::AtPoint { model: self, x: x.to_vec() }))
     }
 
+    /// Whether a run may go on: what takes long between two evaluations asks. Only a guarded model ever says no.
+    ///
+    /// # Errors
+    /// The limit met, or Ctrl-C.
+    fn may_go_on(&self) -> Result<(), EvaluationError> {
+        Ok(())
+    }
+
     /// f(x)
     fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
         self.at(x)?.objective()

@@ -2,24 +2,23 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::unobserved::unobserved;
+use super::remaining::Remaining;
+use super::unobserved::{by_interior_point, unobserved};
 use super::{Subject, matrix_bound};
-use crate::backends::argmin::Argmin;
 use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::model::relaxation::relaxation;
-use crate::run::Choice;
 
 /// A minimum no further above the bound than this, relative, is the global one: what backends may differ by and still agree.
 const AGREEMENT: f64 = 1e-6;
 
 /// Puts the bound beside a certified minimum, and says so where it reaches it; proves a contradiction where even free forces cannot meet the limits.
-pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, interrupt: Option<&AtomicBool>) {
+pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, remaining: &Remaining, interrupt: Option<&AtomicBool>) {
     if outcome.scope == Extent::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
         return;
     }
-    let by_modes = || matrix_bound::relaxed(subject, &outcome.x, outcome.objective?, AGREEMENT, interrupt);
-    let Some(relaxed) = relaxed(subject, interrupt).or_else(by_modes) else { return };
+    let by_modes = || matrix_bound::relaxed(subject, (&outcome.x, outcome.objective?), AGREEMENT, remaining, interrupt);
+    let Some(relaxed) = relaxed(subject, remaining, interrupt).or_else(by_modes) else { return };
     match outcome.status {
         Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
             outcome.scope = Extent::Global;
@@ -45,28 +44,21 @@ fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     }
 }
 
-/// The run with free forces; `None` where it would say nothing of the structure.
-fn relaxed(subject: &Subject, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
+/// The run with free forces; `None` where it would say nothing of the structure, or no time is left.
+fn relaxed(subject: &Subject, remaining: &Remaining, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
+    remaining.settings(&subject.settings)?;
     let relaxed = relaxation(subject.problem()).ok()??;
     let model = relaxed.model.model();
+    let settings = remaining.settings(&subject.settings)?;
     let task = Task {
         model,
         substitution: relaxed.substitution.as_deref().map(|other| other as _),
         class: relaxed.class,
-        settings: &subject.settings,
+        settings: &settings,
         start: &model.meta().start,
         start_multipliers: None,
         starts: 1,
         interrupt,
     };
     Some(unobserved(&task, &[by_interior_point()]))
-}
-
-/// A convex problem solved by one backend.
-pub(super) fn solved_alone(subject: &Subject, start: &[f64], interrupt: Option<&AtomicBool>) -> Outcome {
-    unobserved(&subject.task(start, interrupt), &[by_interior_point()])
-}
-
-fn by_interior_point() -> Choice {
-    Choice { backend: &Argmin, algorithm: "auto".into() }
 }

@@ -6,12 +6,13 @@ use crate::model::EvaluationError;
 use crate::model::derivative_check::{DerivativeCheck, derivative_check};
 
 /// Compares all exact derivatives with an independent method, a little off the start: there, terms that vanish at a round
-/// number or meet at a kink do not hide anything.
+/// number or meet at a kink do not hide anything. Large structures are looked at with their states beside the design.
 ///
 /// # Errors
 /// Where the model has no value near the start.
 pub fn check(subject: &Subject) -> Result<DerivativeCheck, EvaluationError> {
-    let meta = subject.shown().meta();
+    let model = subject.shown_with_states();
+    let meta = model.meta();
     let nudged = |j: usize| {
         let (lower, upper, start) = (meta.lower[j], meta.upper[j], meta.start[j]);
         // Irrational and unequal from variable to variable.
@@ -20,6 +21,9 @@ pub fn check(subject: &Subject) -> Result<DerivativeCheck, EvaluationError> {
         let towards = if upper - start >= start - lower { start + share * room } else { start - share * room };
         within(towards, lower, upper)
     };
-    let x: Vec<f64> = (0..meta.variables()).map(nudged).collect();
-    derivative_check(subject.shown(), &x).or_else(|_| derivative_check(subject.shown(), &meta.start))
+    let mut x: Vec<f64> = (0..meta.variables()).map(nudged).collect();
+    if meta.states.is_some() {
+        model.complete(&mut x);
+    }
+    derivative_check(model, &x).or_else(|_| derivative_check(model, &meta.start))
 }

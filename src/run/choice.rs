@@ -2,7 +2,7 @@
 
 use super::RunError;
 use crate::backends::Backend;
-use crate::model::Model;
+use crate::crosscheck::Task;
 use crate::problem::Settings;
 use crate::problem::settings::{AUTO, BACKENDS};
 
@@ -59,8 +59,9 @@ pub fn choose(names: &[String], algorithm: Option<&str>, settings: &Settings) ->
 ///
 /// # Errors
 /// With each one's reason.
-pub fn refuse_if_none_accepts(choices: &[Choice], model: &dyn Model) -> Result<(), RunError> {
-    let refusals: Vec<Option<String>> = choices.iter().map(|choice| choice.backend.refusal(&choice.algorithm, model)).collect();
+pub fn refuse_if_none_accepts(choices: &[Choice], task: &Task<'_>) -> Result<(), RunError> {
+    let refusal = |choice: &Choice| choice.backend.refusal(&choice.algorithm, task.model_for(choice.backend));
+    let refusals: Vec<Option<String>> = choices.iter().map(refusal).collect();
     if refusals.iter().any(Option::is_none) {
         return Ok(());
     }

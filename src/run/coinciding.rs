@@ -35,7 +35,11 @@ struct Cluster {
 
 /// Judges coinciding eigenvalues by all their combinations: solves again, by `again`, from the point of an outcome; `None` where none
 /// coincide there.
-pub(super) fn settle(subject: &Subject, outcome: &Outcome, again: impl Fn(&Subject, &[f64]) -> Outcome) -> Option<Settled> {
+pub(super) fn settle(
+    subject: &Subject,
+    outcome: &Outcome,
+    again: impl Fn(&Subject, &[f64]) -> Option<Outcome>,
+) -> Option<Settled> {
     if !matches!(outcome.status, Status::Certified | Status::Uncertified | Status::LimitReached) || outcome.objective.is_none() {
         return None;
     }
@@ -55,7 +59,7 @@ pub(super) fn settle(subject: &Subject, outcome: &Outcome, again: impl Fn(&Subje
         }
         let refined = subject.with_problem(with_cuts(subject.problem(), &replaced, cuts.clone())).ok()?;
         let x = last.as_ref().map_or(&outcome.x, |settled: &Settled| &settled.outcome.x);
-        let found = again(&refined, x);
+        let Some(found) = again(&refined, x) else { break };
         if found.objective.is_none() {
             break;
         }

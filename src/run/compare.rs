@@ -22,7 +22,8 @@ pub fn compare(subject: &Subject, interrupt: Option<&AtomicBool>) -> Vec<Trial> 
         }
         let left = (subject.settings.max_seconds - begun.elapsed().as_secs_f64()).max(0.0);
         let max_seconds = left / (choices.len() - done) as f64;
-        trials.push(match choice.backend.refusal(&choice.algorithm, subject.model()) {
+        let model = subject.task(&subject.model().meta().start, None).model_for(choice.backend);
+        trials.push(match choice.backend.refusal(&choice.algorithm, model) {
             Some(reason) => refused(subject, choice, reason),
             None => run(subject, choice, max_seconds, interrupt),
         });

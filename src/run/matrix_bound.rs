@@ -8,8 +8,9 @@
 use std::sync::atomic::AtomicBool;
 
 use super::Subject;
-use super::bounded::solved_alone;
-use crate::crosscheck::Outcome;
+use super::remaining::Remaining;
+use super::unobserved::{by_interior_point, unobserved};
+use crate::crosscheck::{Outcome, Task};
 use crate::expression::operators::{Binary, Fold};
 use crate::model::EvaluationError;
 use crate::problem::modes::{Limited, Pencil, limited};
@@ -25,9 +26,9 @@ const MODES: usize = 4;
 /// `objective` within `agreement`, relative.
 pub(super) fn relaxed(
     subject: &Subject,
-    x: &[f64],
-    objective: f64,
+    (x, objective): (&[f64], f64),
     agreement: f64,
+    remaining: &Remaining,
     interrupt: Option<&AtomicBool>,
 ) -> Option<Outcome> {
     let problem = subject.problem();
@@ -47,7 +48,10 @@ pub(super) fn relaxed(
             rest.constraints.extend(cuts(subject, limit, &point).ok()?);
         }
         let relaxed = subject.with_problem(rest.clone()).ok().filter(|relaxed| relaxed.class().is_global())?;
-        let found = solved_alone(&relaxed, &relaxed.completed(point.clone()), interrupt);
+        let Some(settings) = remaining.settings(&subject.settings) else { break };
+        let start = relaxed.completed(point.clone());
+        let task = Task { settings: &settings, ..relaxed.task(&start, interrupt) };
+        let found = unobserved(&task, &[by_interior_point()]);
         let Some(bound) = found.lower_bound.or(found.objective) else { break };
         point = found.x[..point.len()].to_vec();
         best = Some(found);
@@ -61,7 +65,8 @@ pub(super) fn relaxed(
 /// Whether K and M are affine in the design: prismatic bars between nodes that stay, of one modulus, whose areas are variables themselves.
 fn is_affine(problem: &Problem) -> bool {
     let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else { return false };
-    let given = |section: u32| matches!(problem.given_dimension(section, "A"), Some(Dimension::Variable(_) | Dimension::Constant(_)));
+    let given =
+        |section: u32| matches!(problem.given_dimension(section, "A"), Some(Dimension::Variable(_) | Dimension::Constant(_)));
     structure.members.iter().zip(&statics.members).all(|(member, prepared)| {
         let [from, to] = [&problem.ribs.from, &problem.ribs.to].map(|ends| ends[member.rib as usize]);
         let young = structure.materials[member.material as usize].young;

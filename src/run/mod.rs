@@ -17,6 +17,7 @@ mod place;
 mod plausible;
 mod present;
 pub mod refinement;
+mod remaining;
 mod results;
 pub mod section;
 mod settled;

@@ -11,6 +11,7 @@ use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
 use super::refinement;
+use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
 use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
@@ -84,8 +85,9 @@ impl Solved {
 /// Before anything is solved: a folder that cannot be used, no backend that takes the problem. Files that cannot be written
 /// afterwards are told by [`Solved::unwritten`].
 pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
+    let remaining = Remaining::new();
     subject.refuse_mechanism()?;
-    refuse_if_none_accepts(&request.choices, subject.model())?;
+    refuse_if_none_accepts(&request.choices, &subject.task(&subject.model().meta().start, None))?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings);
     let default = default_folder(Path::new(&about.file));
@@ -99,9 +101,9 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let judged = looked_at_anew(subject, &mut outcome, &request.choices, request.interrupt);
-    bound_below(subject, &mut outcome, request.interrupt);
-    strongest::explain(subject, &mut outcome);
+    let judged = looked_at_anew(subject, &mut outcome, &request.choices, &remaining, request.interrupt);
+    bound_below(subject, &mut outcome, &remaining, request.interrupt);
+    strongest::explain(subject, &mut outcome, &remaining);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
@@ -147,13 +149,14 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
 /// # Errors
 /// No backend takes the problem.
 pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
+    let remaining = Remaining::new();
     let choices = choose(&[], None, &subject.settings)?;
-    refuse_if_none_accepts(&choices, subject.model())?;
-    let start = subject.model().meta().start.clone();
-    let mut outcome = present(subject, unobserved(&subject.task(&start, None), &choices));
-    looked_at_anew(subject, &mut outcome, &choices, None);
-    bound_below(subject, &mut outcome, None);
-    strongest::explain(subject, &mut outcome);
+    let task = subject.task(&subject.model().meta().start, None);
+    refuse_if_none_accepts(&choices, &task)?;
+    let mut outcome = present(subject, unobserved(&task, &choices));
+    looked_at_anew(subject, &mut outcome, &choices, &remaining, None);
+    bound_below(subject, &mut outcome, &remaining, None);
+    strongest::explain(subject, &mut outcome, &remaining);
     Ok(outcome)
 }
 
@@ -162,18 +165,27 @@ fn looked_at_anew(
     subject: &Subject,
     outcome: &mut Outcome,
     choices: &[Choice],
+    remaining: &Remaining,
     interrupt: Option<&AtomicBool>,
 ) -> Option<Subject> {
-    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, interrupt);
+    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, remaining, interrupt);
     let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
     *outcome = settled.outcome;
     Some(settled.subject)
 }
 
-/// One start of every backend from a point of the user's variables.
-fn nearby(subject: &Subject, x: &[f64], choices: &[Choice], interrupt: Option<&AtomicBool>) -> Outcome {
+/// One start of every backend from a point of the user's variables; `None` where no time is left for it.
+fn nearby(
+    subject: &Subject,
+    x: &[f64],
+    choices: &[Choice],
+    remaining: &Remaining,
+    interrupt: Option<&AtomicBool>,
+) -> Option<Outcome> {
+    let settings = remaining.settings(&subject.settings)?;
     let start = subject.completed(x.to_vec());
-    present(subject, unobserved(&subject.task(&start, interrupt), choices))
+    let task = Task { settings: &settings, ..subject.task(&start, interrupt) };
+    Some(present(subject, unobserved(&task, choices)))
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

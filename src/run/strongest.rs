@@ -1,6 +1,7 @@
 //! What an infeasible structure lacks even where every rib is as strong as its bounds allow.
 
 use super::Subject;
+use super::remaining::Remaining;
 use crate::crosscheck::{Outcome, Status};
 use crate::model::Model;
 use crate::report::number::short;
@@ -9,8 +10,9 @@ use crate::report::number::short;
 const MOST_NAMED: usize = 3;
 
 /// Says which limits are not met with every variable at its upper bound, where an analysed structure is infeasible and all bounds are closed.
-pub(super) fn explain(subject: &Subject, outcome: &mut Outcome) {
+pub(super) fn explain(subject: &Subject, outcome: &mut Outcome, remaining: &Remaining) {
     if outcome.status == Status::Infeasible
+        && remaining.settings(&subject.settings).is_some()
         && let Some(words) = lacking(subject)
     {
         outcome.message = format!("{} {words}", outcome.message);

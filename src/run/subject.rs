@@ -126,6 +126,11 @@ impl Subject {
         self.formulation.shown.model()
     }
 
+    /// The same with the states of large structures beside the design: there, derivatives are sparse.
+    pub fn shown_with_states(&self) -> &dyn Model {
+        self.formulation.shown.judge()
+    }
+
     /// A point in the user's variables with the auxiliaries that follow from it.
     pub fn completed(&self, mut x: Vec<f64>) -> Vec<f64> {
         let model = self.model();

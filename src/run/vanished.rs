@@ -25,12 +25,16 @@ pub(super) fn without_vanished(subject: &Subject, x: &[f64]) -> Option<(Subject,
 
 /// Solves anew, by `again`, without the bars that have vanished at the point of an outcome; `None` where none has, or where nothing
 /// better is known of the rest.
-pub(super) fn settle(subject: &Subject, outcome: &Outcome, again: impl FnOnce(&Subject, &[f64]) -> Outcome) -> Option<Settled> {
+pub(super) fn settle(
+    subject: &Subject,
+    outcome: &Outcome,
+    again: impl FnOnce(&Subject, &[f64]) -> Option<Outcome>,
+) -> Option<Settled> {
     if matches!(outcome.status, Status::Infeasible | Status::Unbounded | Status::Interrupted) || outcome.objective.is_none() {
         return None;
     }
     let (rest, x, remark) = without_vanished(subject, &outcome.x)?;
-    let mut found = again(&rest, &x);
+    let mut found = again(&rest, &x)?;
     if found.status != Status::Certified {
         return None;
     }

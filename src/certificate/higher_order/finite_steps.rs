@@ -218,7 +218,7 @@ impl<'w, 'p> Walk<'w, 'p> {
             if !descends {
                 right[..self.free.len()].fill(0.0);
             }
-            let step = self.kkt.solve(&right).ok()?;
+            let step = self.kkt.chord_step(&right).ok()?;
             let share = if descends { self.share_beside(&x, &step[..self.free.len()], length) } else { 1.0 };
             descends &= share == 1.0;
             let mut longest = 0.0f64;
@@ -243,9 +243,10 @@ impl<'w, 'p> Walk<'w, 'p> {
         let (point, meta, model) = (self.point, self.point.meta(), &self.point.origin.model);
         let (mut total, mut rows, mut jacobian) =
             (vec![0.0; meta.variables()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
-        model.gradient(x, &mut total).ok()?;
-        model.constraints(x, &mut rows).ok()?;
-        model.jacobian(x, &mut jacobian).ok()?;
+        let mut at = model.at(x).ok()?;
+        at.gradient(&mut total).ok()?;
+        at.constraints(&mut rows).ok()?;
+        at.jacobian(&mut jacobian).ok()?;
         meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
         let slopes = self.free.iter().map(|&j| -total[j] * point.sizes[j] / point.scale());
         let lack = |(k, &i): (usize, &usize)| {

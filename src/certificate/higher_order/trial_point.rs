@@ -25,9 +25,10 @@ impl<'x> Trial<'x> {
     pub(in crate::certificate) fn at(point: &Point<'_>, x: &'x [f64]) -> Option<Trial<'x>> {
         let (model, meta) = (&point.origin.model, point.meta());
         let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
-        model.constraints(x, &mut rows).ok()?;
-        let objective = model.objective(x).ok()?;
-        let terms = match model.jacobian(x, &mut jacobian) {
+        let mut at = model.at(x).ok()?;
+        at.constraints(&mut rows).ok()?;
+        let objective = at.objective().ok()?;
+        let terms = match at.jacobian(&mut jacobian) {
             Ok(()) => scales::row_terms(meta, x, &jacobian),
             Err(_) => point.terms.clone(),
         };

@@ -191,6 +191,11 @@ impl<'a> Kkt<'a> {
         self.matrix.solve(right)
     }
 
+    /// One of several steps that correct one another.
+    pub(in crate::certificate) fn chord_step(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+        self.matrix.solve_once(right)
+    }
+
     /// vᵀSv over vᵀWv, W the magnitudes.
     fn rayleigh(&self, v: &[f64]) -> f64 {
         let weight: f64 = v.iter().enumerate().map(|(k, v)| weight(self.size[k]) * v * v).sum();

@@ -56,7 +56,7 @@ fn alone(work: &Work<'_>, best: &Relaxed, limit: Limit, proved: bool) -> Option<
     let outer = Freed::new(user, limit);
     let judge = Certifier::new(&outer, class, work.session.tolerances);
     // The way back from substituted variables ends at the user's bounds: a bound is released in the user's variables.
-    let substitution = work.session.task.substitution.filter(|_| matches!(limit, Limit::Row(..)));
+    let substitution = work.other.filter(|_| matches!(limit, Limit::Row(..)));
     let model: &dyn Model = if substitution.is_some() { &inner } else { &outer };
     let mut start = if substitution.is_some() { best.x.clone() } else { work.outward(&best.x) };
     model.meta().clamp(&mut start);

@@ -59,7 +59,16 @@ impl Attempts {
         self.rescaled += 1;
         let State { form, iterate, .. } = &mut engine.state;
         let x = form.x(&iterate.w).to_vec();
-        begin(model, InitialPoint { magnitudes: &magnitudes, ..InitialPoint::at(&x) })
+        let multipliers = form.multipliers(&iterate.y);
+        let cold = InitialPoint { magnitudes: &magnitudes, ..InitialPoint::at(&x) };
+        let warm = InitialPoint { multipliers: Some(&multipliers), ..cold };
+        // Where the answer is as good in the new scales there is nothing to mend.
+        let enough = PARAMETERS.epsilon_tol.max(engine.state.errors.largest());
+        match warm.error_as_answer(model)? {
+            error if error <= enough => Ok(None),
+            error if error <= PARAMETERS.epsilon_acceptable => begin(model, warm),
+            _ => begin(model, cold),
+        }
     }
 
     /// What the runs came to.

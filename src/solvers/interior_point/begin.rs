@@ -5,7 +5,7 @@ use super::parameters::PARAMETERS;
 use super::slack_form::{SlackForm, Source};
 use super::start;
 use super::state::State;
-use crate::model::EvaluationError;
+use crate::model::{EvaluationError, Model};
 
 /// How to begin.
 #[derive(Clone, Copy)]
@@ -28,6 +28,14 @@ impl<'s> InitialPoint<'s> {
     /// A cold start.
     pub fn at(x: &'s [f64]) -> Self {
         InitialPoint { x, magnitudes: x, multipliers: None, ease: 0.0, mu: None, push: None }
+    }
+
+    /// The optimality error of x with these multipliers as an answer, in the scales that fit here.
+    pub fn error_as_answer(&self, model: &'s dyn Model) -> Result<f64, EvaluationError> {
+        let mut form = SlackForm::new(Source::Given(model), self.x, self.magnitudes);
+        let mut iterate = start::place(&mut form, self.x, 0.0, 0.0)?;
+        start::answer_multipliers(&form, &mut iterate, self.multipliers.unwrap_or_default());
+        Ok(iterate.errors(&form, 0.0, &mut vec![0.0; form.size()]).largest())
     }
 }
 

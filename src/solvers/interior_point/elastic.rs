@@ -124,6 +124,10 @@ impl Model for LeastViolation<'_> {
         &self.meta
     }
 
+    fn may_go_on(&self) -> Result<(), EvaluationError> {
+        self.base.may_go_on()
+    }
+
     fn objective(&self, x: &[f64]) -> Result<f64, EvaluationError> {
         let (x, violations) = self.split(x);
         let distance = x.iter().zip(&self.reference).zip(&self.proximity).map(|((x, r), weight)| weight * (x - r).powi(2));

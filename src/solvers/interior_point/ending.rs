@@ -30,7 +30,7 @@ impl Ending {
     pub fn called_for(state: &State<'_>) -> Option<Ending> {
         let State { form, iterate, errors, best, .. } = state;
         let idle = state.idle_iterations();
-        if errors.largest() <= PARAMETERS.epsilon_tol {
+        if errors.largest() <= PARAMETERS.epsilon_tol || Ending::is_rounding(state) {
             return Some(Ending::Optimal);
         }
         if best.error <= PARAMETERS.epsilon_acceptable && idle > PARAMETERS.patience_near {
@@ -45,6 +45,13 @@ impl Ending {
             return Some(Ending::Diverging(format!("{name} grows beyond all bounds; the iterates diverge")));
         }
         (idle > PARAMETERS.patience_far).then(|| Ending::Stuck(format!("no progress in {} iterations", PARAMETERS.patience_far)))
+    }
+
+    /// Whether all that is left of the optimality error is rounding of the dual one.
+    fn is_rounding(State { form, iterate, errors, .. }: &State<'_>) -> bool {
+        let is_near =
+            errors.primal.max(errors.complementarity) <= PARAMETERS.epsilon_tol && errors.dual <= PARAMETERS.epsilon_acceptable;
+        is_near && errors.dual <= iterate.dual_rounding(form)
     }
 
     /// The ending where nothing moves any more.

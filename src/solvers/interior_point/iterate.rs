@@ -96,12 +96,32 @@ impl Iterate {
                 }
             }
         }
-        let bound_sum = norm_sum(&self.z_lower) + norm_sum(&self.z_upper);
-        let scale = |sum: f64, count: usize| (sum / count.max(1) as f64).max(PARAMETERS.s_max) / PARAMETERS.s_max;
+        let bound_sum = self.sum_of_bounds();
         Errors {
-            dual: norm_max(scratch) / scale(bound_sum + norm_sum(&self.y), bounds + self.y.len()),
+            dual: norm_max(scratch) / relaxation(bound_sum + norm_sum(&self.y), bounds + self.y.len()),
             primal: norm_max(&self.residual),
-            complementarity: complementarity / scale(bound_sum, bounds),
+            complementarity: complementarity / relaxation(bound_sum, bounds),
         }
     }
+
+    /// The dual error that rounding alone may leave: a term of ∇f + Aᵀy − z is rounded as a derivative, as a multiplier, as their product and in
+    /// the sum.
+    pub fn dual_rounding(&self, form: &SlackForm<'_>) -> f64 {
+        let mut terms: Vec<f64> = self.z_lower.iter().zip(&self.z_upper).map(|(lower, upper)| lower + upper).collect();
+        terms.iter_mut().zip(&self.gradient).for_each(|(term, gradient)| *term += gradient.abs());
+        let magnitudes = |values: &[f64]| values.iter().map(|value| value.abs()).collect::<Vec<f64>>();
+        form.jacobian.add_transposed(&magnitudes(&self.jacobian), &magnitudes(&self.y), &mut terms[..form.variables()]);
+        let finite = |bounds: &[f64]| bounds.iter().filter(|bound| bound.is_finite()).count();
+        let count = finite(&form.lower) + finite(&form.upper) + self.y.len();
+        4.0 * f64::EPSILON * norm_max(&terms) / relaxation(self.sum_of_bounds() + norm_sum(&self.y), count)
+    }
+
+    fn sum_of_bounds(&self) -> f64 {
+        norm_sum(&self.z_lower) + norm_sum(&self.z_upper)
+    }
+}
+
+/// s_d and s_c: what large multipliers relax the errors by.
+fn relaxation(sum: f64, count: usize) -> f64 {
+    (sum / count.max(1) as f64).max(PARAMETERS.s_max) / PARAMETERS.s_max
 }

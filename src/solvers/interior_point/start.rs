@@ -107,12 +107,17 @@ pub(super) fn least_squares_multipliers(form: &SlackForm<'_>, kkt: &mut Kkt, ite
 }
 
 /// Multipliers of an earlier answer (the model's rows and units); bound multipliers follow from stationarity.
-pub(super) fn warm_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, given: &[f64], mu: f64) {
-    for (i, y) in iterate.y.iter_mut().enumerate() {
-        *y = given.get(form.rows[i]).copied().filter(|y| y.is_finite()).unwrap_or(0.0) * form.objective_scale / form.row_scale[i];
+pub(super) fn answer_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, given: &[f64]) {
+    let gradient = gradient_for(form, iterate, given);
+    for (j, gradient) in gradient.into_iter().enumerate() {
+        iterate.z_lower[j] = if form.lower[j].is_finite() { gradient.max(0.0) } else { 0.0 };
+        iterate.z_upper[j] = if form.upper[j].is_finite() { (-gradient).max(0.0) } else { 0.0 };
     }
-    let mut gradient = vec![0.0; form.size()];
-    iterate.lagrangian_gradient(form, &mut gradient);
+}
+
+/// The same, bound multipliers at least those of the barrier parameter.
+pub(super) fn warm_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, given: &[f64], mu: f64) {
+    let gradient = gradient_for(form, iterate, given);
     for (j, gradient) in gradient.into_iter().enumerate() {
         if form.lower[j].is_finite() {
             iterate.z_lower[j] = gradient.max(mu / (iterate.w[j] - form.lower[j]));
@@ -121,4 +126,14 @@ pub(super) fn warm_multipliers(form: &SlackForm<'_>, iterate: &mut Iterate, give
             iterate.z_upper[j] = (-gradient).max(mu / (form.upper[j] - iterate.w[j]));
         }
     }
+}
+
+/// Takes the row multipliers given; the Lagrangian's gradient with them.
+fn gradient_for(form: &SlackForm<'_>, iterate: &mut Iterate, given: &[f64]) -> Vec<f64> {
+    for (i, y) in iterate.y.iter_mut().enumerate() {
+        *y = given.get(form.rows[i]).copied().filter(|y| y.is_finite()).unwrap_or(0.0) * form.objective_scale / form.row_scale[i];
+    }
+    let mut gradient = vec![0.0; form.size()];
+    iterate.lagrangian_gradient(form, &mut gradient);
+    gradient
 }

@@ -138,7 +138,8 @@ impl<'a> State<'a> {
         barrier::add_gradient(form, &iterate.w, *mu, &mut work.right);
         work.right.iter_mut().for_each(|value| *value = -*value);
         let blocks = Blocks { hessian: &work.hessian, jacobian: &iterate.jacobian, sigma: &work.sigma };
-        if !kkt.factor_corrected(blocks, *mu).unwrap_or(false) {
+        if !kkt.factor_corrected(blocks, *mu, || form.model.may_go_on().is_ok()).unwrap_or(false) {
+            form.model.may_go_on()?;
             return Ok(false);
         }
         let rows: Vec<f64> = iterate.residual.iter().map(|value| -value).collect();

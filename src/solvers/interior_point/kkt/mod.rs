@@ -146,8 +146,13 @@ impl Kkt {
         self.factor(blocks, 0.0, 0.0).is_ok_and(|inertia| inertia == wanted)
     }
 
-    /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found.
-    pub fn factor_corrected(&mut self, blocks: Blocks<'_>, mu: f64) -> Result<bool, FactorizationError> {
+    /// Factorises with the least corrections found that give the inertia of a minimum. `false`: none was found while it `may_go_on`.
+    pub fn factor_corrected(
+        &mut self,
+        blocks: Blocks<'_>,
+        mu: f64,
+        may_go_on: impl Fn() -> bool,
+    ) -> Result<bool, FactorizationError> {
         let wanted = self.wanted();
         let regularisation = PARAMETERS.delta_c * mu.powf(PARAMETERS.kappa_c);
         let mut dual = if self.dependent { regularisation } else { 0.0 };
@@ -165,7 +170,7 @@ impl Kkt {
         }
         let mut primal = PARAMETERS.inertia.begin(self.last_correction);
         let factor = PARAMETERS.inertia.growth(self.last_correction);
-        while primal <= PARAMETERS.inertia.largest {
+        while primal <= PARAMETERS.inertia.largest && may_go_on() {
             match self.factor(blocks, primal, dual) {
                 Ok(inertia) if inertia == wanted => {
                     self.last_correction = primal;
@@ -183,7 +188,7 @@ impl Kkt {
     /// Factorises with a δ_w that is hardly larger than needed for the inertia of a minimum, so that inverse iteration
     /// finds the direction of least curvature. `false`: none was found.
     pub fn factor_close(&mut self, blocks: Blocks<'_>) -> bool {
-        if !self.factor_corrected(blocks, 1.0).unwrap_or(false) {
+        if !self.factor_corrected(blocks, 1.0, || true).unwrap_or(false) {
             return false;
         }
         let wanted = self.wanted();

@@ -108,7 +108,7 @@ impl State<'_> {
     /// Newton steps on the active set; the best point, if it is better than the iterate.
     fn newton_on(&mut self, sides: &[BoundState]) -> Result<Option<Iterate>, EvaluationError> {
         let mut point = self.iterate.clone();
-        let (mut best, mut least) = (None, self.errors.largest());
+        let (mut best, mut least, mut before) = (None, self.errors.largest(), f64::INFINITY);
         hold(&self.form, sides, &mut point);
         point.evaluate(&mut self.form)?;
         for _ in 0..PARAMETERS.polish.most_steps {
@@ -117,9 +117,11 @@ impl State<'_> {
             }
             let error = settle(&self.form, sides, &mut point, &mut self.work.right);
             if error >= least {
-                if best.is_some() {
+                // On the right active set Newton's steps contract.
+                if best.is_some() || error >= before {
                     break;
                 }
+                before = error;
                 continue;
             }
             (least, best) = (error, Some(point.clone()));

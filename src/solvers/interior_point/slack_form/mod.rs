@@ -75,8 +75,12 @@ impl<'a> SlackForm<'a> {
         let mut inequalities = free.len()..;
         let slack: Vec<Option<usize>> =
             rows.iter().map(|&i| (meta.row_lower[i] != meta.row_upper[i]).then(|| inequalities.next()).flatten()).collect();
+        // A state's own start may be next to nothing by chance.
+        let is_state = |j: usize| meta.states.is_some_and(|states| j >= states.first_variable);
+        let typical = |j: usize| meta.typical.get(j).copied().filter(|size| is_state(j) && *size > 0.0);
+        let magnitude = |j: usize| typical(j).unwrap_or(magnitudes[j]);
         let variable_scale: Vec<f64> =
-            free.iter().map(|&j| scaling::variable_scale(magnitudes[j], meta.lower[j], meta.upper[j])).collect();
+            free.iter().map(|&j| scaling::variable_scale(magnitude(j), meta.lower[j], meta.upper[j])).collect();
         let (jacobian, jacobian_entries) = select_jacobian(&meta.jacobian, &rows, &free, meta.variables());
         let (hessian, hessian_entries) = select_hessian(&meta.hessian, &free, meta.variables());
         let mut x = start.to_vec();

@@ -1,15 +1,23 @@
-//! Exact derivatives against an independent method: Ridders' extrapolated central differences (Ridders 1982).
+//! Exact derivatives against an independent method: Ridders' extrapolated central differences (Ridders 1982). Of a large model variables that
+//! no row and no second derivative has in common are moved at once (Curtis, Powell and Reid, *On the estimation of sparse Jacobian
+//! matrices*, Journal of the Institute of Mathematics and its Applications 13, 1974).
+
+mod along;
+mod apart;
+#[cfg(test)]
+mod tests;
 
 use std::collections::HashMap;
 
 use super::{Components, EvaluationError, Model};
+use along::Along;
+use apart::apart;
 
-/// Variables looked at one by one; of a larger model an even selection of as many is.
+/// Variables looked at one by one; of a larger model an even selection of as many is, many at once.
 const MOST_VARIABLES: usize = 400;
 
-/// Variables times entries of everything: each variable costs some twenty evaluations, and a check is to take seconds at any size.
+/// Directions times entries of everything: each direction costs some forty evaluations, and a check is to take seconds at any size.
 const WORK: usize = 8_000_000;
-const FEWEST_VARIABLES: usize = 20;
 
 /// Components looked at, of a model that decomposes.
 const MOST_COMPONENTS: usize = 100;
@@ -44,12 +52,12 @@ pub struct DerivativeCheck {
 }
 
 impl DerivativeCheck {
-    fn add(&mut self, entry: Entry) {
+    fn add(&mut self, exact: f64, numeric: f64, error: f64, name: impl FnOnce() -> String) {
         self.compared += 1;
         // A NaN counts as a disagreement.
-        self.disagreements += usize::from(entry.error.is_nan() || entry.error > TOLERANCE);
-        if self.worst.as_ref().is_none_or(|worst| entry.error.is_nan() || entry.error > worst.error) {
-            self.worst = Some(entry);
+        self.disagreements += usize::from(error.is_nan() || error > TOLERANCE);
+        if self.worst.as_ref().is_none_or(|worst| error.is_nan() || error > worst.error) {
+            self.worst = Some(Entry { name: name(), exact, numeric, error });
         }
     }
 }
@@ -94,11 +102,15 @@ fn check_whole(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck, Evaluati
     let exact = Exact::at(model, x)?;
     let (n, meta) = (x.len(), model.meta());
     let size = n + meta.rows() + meta.jacobian.len() + meta.hessian.len();
-    let most = (WORK / size.max(1)).clamp(FEWEST_VARIABLES, MOST_VARIABLES);
-    let step = n.div_ceil(most).max(1);
-    let mut check = DerivativeCheck { variables: (n.div_ceil(step), n), ..DerivativeCheck::default() };
-    for j in (0..n).step_by(step) {
-        compare_column(model, x, j, &exact, &mut check);
+    let groups = match n {
+        0..=MOST_VARIABLES => (0..n as u32).map(|j| vec![j]).collect(),
+        _ => apart(meta, MOST_VARIABLES, (WORK / size).max(1)),
+    };
+    let looked_at = groups.iter().map(Vec::len).sum();
+    let mut check = DerivativeCheck { variables: (looked_at, n), ..DerivativeCheck::default() };
+    let families = families(model);
+    for group in groups {
+        compare_columns(model, &Along::new(x, group), &exact, &families, &mut check);
     }
     Ok(check)
 }
@@ -128,40 +140,61 @@ impl Exact {
         Ok(exact)
     }
 
-    /// Column j of the Jacobian, dense.
-    fn jacobian_column(&self, model: &dyn Model, j: usize) -> Vec<f64> {
+    /// Derivatives of the objective and the rows along a direction, and the variable of the group each depends on.
+    fn first(&self, model: &dyn Model, along: &Along<'_>) -> (Vec<f64>, Vec<Option<u32>>) {
         let pattern = &model.meta().jacobian;
-        let value = |row| pattern.position(row, j as u32).map_or(0.0, |at| self.jacobian[at]);
-        (0..pattern.rows()).map(value).collect()
+        let mut first = vec![0.0; 1 + pattern.rows()];
+        let mut owners = vec![None; first.len()];
+        first[0] = along.variables().map(|j| self.gradient[j as usize] * along.direction(j as usize)).sum();
+        owners[0] = along.only();
+        for (at, (row, column)) in pattern.iter().enumerate() {
+            let way = along.direction(column);
+            if way != 0.0 {
+                first[1 + row] += self.jacobian[at] * way;
+                owners[1 + row] = Some(column as u32);
+            }
+        }
+        (first, owners)
     }
 
-    /// Column j of the symmetric Hessian, dense.
-    fn hessian_column(&self, model: &dyn Model, j: usize) -> Vec<f64> {
+    /// The same of the Lagrangian's gradient.
+    fn second(&self, model: &dyn Model, along: &Along<'_>) -> (Vec<f64>, Vec<Option<u32>>) {
         let pattern = &model.meta().hessian;
-        let value = |i: usize| pattern.position(i.max(j), i.min(j) as u32).map_or(0.0, |at| self.hessian[at]);
-        (0..pattern.rows()).map(value).collect()
+        let mut second = vec![0.0; pattern.rows()];
+        let mut owners = vec![None; second.len()];
+        for (at, (row, column)) in pattern.iter().enumerate() {
+            let both = [(row, column), (column, row)];
+            for (i, j) in both.into_iter().take(if row == column { 1 } else { 2 }) {
+                let way = along.direction(j);
+                if way != 0.0 {
+                    second[i] += self.hessian[at] * way;
+                    owners[i] = Some(j as u32);
+                }
+            }
+        }
+        (second, owners)
     }
 }
 
-fn compare_column(model: &dyn Model, x: &[f64], j: usize, exact: &Exact, check: &mut DerivativeCheck) {
-    let variable = model.variable_name(j);
+fn compare_columns(model: &dyn Model, along: &Along<'_>, exact: &Exact, families: &[usize], check: &mut DerivativeCheck) {
     let values = |x: &[f64]| {
         let mut all = vec![0.0; 1 + model.meta().rows()];
         all[0] = model.objective(x).ok()?;
         model.constraints(x, &mut all[1..]).ok()?;
         Some(all)
     };
-    let name = |at: usize| match at {
-        0 => format!("∂(objective)/∂({variable})"),
-        at => format!("∂({})/∂({variable})", model.row_name(at - 1)),
+    let variable = |owner: Option<u32>| match owner.or(along.only()) {
+        Some(j) => model.variable_name(j as usize),
+        None => "variables apart from one another".into(),
     };
-    let mut column = vec![exact.gradient[j]];
-    column.extend(exact.jacobian_column(model, j));
-    let families = families(model);
-    compare(x, j, &column, values, name, &families, check);
+    let name = |at: usize, owner| match at {
+        0 => format!("∂(objective)/∂({})", variable(owner)),
+        at => format!("∂({})/∂({})", model.row_name(at - 1), variable(owner)),
+    };
+    compare(along, exact.first(model, along), values, name, families, check);
     let gradient = |x: &[f64]| lagrangian_gradient(model, x, &exact.y);
-    let second = |i: usize| format!("∂²L/∂({})∂({variable})", model.variable_name(i));
-    compare(x, j, &exact.hessian_column(model, j), gradient, second, &[], check);
+    let second = |i: usize, owner| format!("∂²L/∂({})∂({})", model.variable_name(i), variable(owner));
+    compare(along, exact.second(model, along), gradient, second, &[], check);
 }
 
 fn lagrangian_gradient(model: &dyn Model, x: &[f64], y: &[f64]) -> Option<Vec<f64>> {
@@ -173,27 +206,28 @@ fn lagrangian_gradient(model: &dyn Model, x: &[f64], y: &[f64]) -> Option<Vec<f6
     Some(gradient)
 }
 
-/// Compares one exact column with differences of `f` in variable j.
+/// Compares exact derivatives along a direction, each with the variable of the group it is one by, with differences of `f`.
 fn compare(
-    x: &[f64],
-    j: usize,
-    exact: &[f64],
+    along: &Along<'_>,
+    (exact, owners): (Vec<f64>, Vec<Option<u32>>),
     f: impl Fn(&[f64]) -> Option<Vec<f64>>,
-    name: impl Fn(usize) -> String,
+    name: impl Fn(usize, Option<u32>) -> String,
     families: &[usize],
     check: &mut DerivativeCheck,
 ) {
-    let Some((numeric, noise, mut size)) = ridders(x, j, f) else { return };
+    let Some((numeric, noise, mut size)) = along.ridders(f) else { return };
     share_sizes(families, &mut size);
-    let reach = x[j].abs().max(1e-3);
-    for (at, &exact) in exact.iter().enumerate() {
+    for (at, (&exact, &owner)) in exact.iter().zip(&owners).enumerate() {
         if exact == 0.0 && numeric[at] == 0.0 {
             continue;
         }
-        let scale = exact.abs().max(numeric[at].abs()).max(1e-6 * size[at] / reach);
-        let excess = ((exact - numeric[at]).abs() - 4.0 * noise[at]).max(0.0);
-        let error = if numeric[at].is_finite() { excess / scale } else { f64::NAN };
-        check.add(Entry { name: name(at), exact, numeric: numeric[at], error });
+        let owner = owner.or(along.only());
+        let (way, reach) = owner.map_or((1.0, 1.0), |j| (along.direction(j as usize), along.reach(j as usize)));
+        let (exact, numeric, noise) = (exact / way, numeric[at] / way, noise[at] / way);
+        let scale = exact.abs().max(numeric.abs()).max(1e-6 * size[at] / reach);
+        let excess = ((exact - numeric).abs() - 4.0 * noise).max(0.0);
+        let error = if numeric.is_finite() { excess / scale } else { f64::NAN };
+        check.add(exact, numeric, error, || name(at, owner));
     }
 }
 
@@ -215,51 +249,4 @@ fn share_sizes(families: &[usize], size: &mut [f64]) {
     let mut largest = vec![0.0_f64; size.len()];
     families.iter().zip(size.iter()).for_each(|(&family, &size)| largest[family] = largest[family].max(size));
     families.iter().zip(size.iter_mut()).for_each(|(&family, size)| *size = largest[family]);
-}
-
-/// The largest step of 0.02·|x| and its quarters that has values on both sides, and these values.
-fn first_step(x: f64, shifted: &impl Fn(f64) -> Option<Vec<f64>>) -> Option<(f64, Vec<f64>, Vec<f64>)> {
-    let largest = 0.02 * x.abs().max(1e-2);
-    let steps = std::iter::successors(Some(largest), |step| Some(step / 4.0)).take(21);
-    steps.into_iter().find_map(|step| Some((step, shifted(-step)?, shifted(step)?)))
-}
-
-/// Derivatives of all components in variable j, their estimated errors, and the components' sizes.
-/// Steps shrink until the model has values on both sides; `None` where it never has.
-fn ridders(x: &[f64], j: usize, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    const LEVELS: usize = 6;
-    let shifted = |by: f64| {
-        let mut point = x.to_vec();
-        point[j] += by;
-        f(&point)
-    };
-    let (mut step, mut left, mut right) = first_step(x[j], &shifted)?;
-    let size: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l.abs().max(r.abs())).collect();
-    let mut best = vec![f64::NAN; left.len()];
-    let mut noise = vec![f64::INFINITY; left.len()];
-    let mut previous: Vec<Vec<f64>> = Vec::new();
-    for level in 0..LEVELS {
-        let mut row = vec![left.iter().zip(&right).map(|(l, r)| (r - l) / (2.0 * step)).collect::<Vec<f64>>()];
-        let mut factor = 1.0;
-        for order in 0..level {
-            factor *= 4.0;
-            let refined: Vec<f64> =
-                row[order].iter().zip(&previous[order]).map(|(fine, coarse)| fine + (fine - coarse) / (factor - 1.0)).collect();
-            for at in 0..refined.len() {
-                let error = (refined[at] - row[order][at]).abs().max((refined[at] - previous[order][at]).abs());
-                if error <= noise[at] {
-                    (best[at], noise[at]) = (refined[at], error);
-                }
-            }
-            row.push(refined);
-        }
-        previous = row;
-        step /= 2.0;
-        (left, right) = (shifted(-step)?, shifted(step)?);
-    }
-    // What cancellation in the differences can hide.
-    for (noise, size) in noise.iter_mut().zip(&size) {
-        *noise += 8.0 * f64::EPSILON * size / step;
-    }
-    Some((best, noise, size))
 }
