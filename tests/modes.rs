@@ -93,7 +93,7 @@ const PORTAL: &str = "minimize = \"volume\"\n[variables]\nrise = { start = 1.1, 
     [sections.foot]\nkind = \"rectangle\"\nb = 0.12\nh = { start = 0.21, lower = 0.1, upper = 0.5 }\n[sections.knee]\nkind = \"rectangle\"\nb = 0.12\nh = { start = 0.42, lower = 0.1, upper = 0.8 }\n\
     [sections.top]\nkind = \"rectangle\"\nb = 0.12\nh = 0.25\n\
     [[ribs]]\nname = \"c1\"\nstart = \"a\"\nend = \"b\"\nfrom = \"foot\"\nto = \"knee\"\nshear = true\n\
-    [[ribs]]\nname = \"r1\"\nstart = \"b\"\nend = \"r\"\nfrom = \"knee\"\nto = \"top\"\nhinges = { end = [\"My\"] }\noffset = { start = [0.1, 0.05] }\n\
+    [[ribs]]\nname = \"r1\"\nstart = \"b\"\nend = \"r\"\nfrom = \"knee\"\nto = \"top\"\nhinges = { start = [\"My\"] }\noffset = { start = [0.1, 0.05] }\n\
     [[loads]]\ncase = \"dead\"\nself_weight = true\n[[loads]]\ncase = \"dead\"\nribs = [\"r*\"]\nforce = [0, -6]\n[[loads]]\ncase = \"wind\"\nnodes = [\"b\"]\nforce = [9, 0]\n\
     [combinations]\nULS = { dead = 1.35, wind = 1.5 }\n";
 

@@ -16,14 +16,14 @@ use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
 use super::with_states::WithStates;
 use super::{AssemblyError, Evaluation, EvaluationError, Meta, Model, NameTable, Own, RibModel, assemble, auxiliaries};
-use crate::linear_algebra::pencil::Spectrum;
 use crate::problem::kinks::Auxiliary;
-use crate::problem::modes::{Pencil, eigenvalues};
+use crate::problem::modes::eigenvalues;
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use crate::problem::{Origin, Problem};
 use maps::{Known, deformations, links, outer_meta};
-use modes::{Modes, WithModes};
+pub use modes::Modes;
+use modes::WithModes;
 use names::LiftedNames;
 
 /// A structure in design variables and displacements.
@@ -165,39 +165,11 @@ impl Lifted {
         self.stiffness.residual(self.model.first().first(), z)
     }
 
-    /// All modes of a pencil at design and displacements, the lowest first: μ of B φ = μ K φ, and φ.
+    /// The modes of the eigenvalues that are asked for.
     ///
     /// # Errors
-    /// The structure is a mechanism, or none of this pencil's eigenvalues is asked for.
-    pub fn spectrum(&self, z: &[f64], pencil: Pencil) -> Result<Spectrum, EvaluationError> {
-        self.modes()?.spectrum(z, pencil)
-    }
-
-    /// K·φ of modes.
-    ///
-    /// # Errors
-    /// As [`Lifted::spectrum`].
-    pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
-        self.modes()?.stiffness_times(z, pencil, vectors)
-    }
-
-    /// How many modes have a factor or frequency below this: the negative eigenvalues of one matrix.
-    ///
-    /// # Errors
-    /// As [`Lifted::spectrum`].
-    pub fn modes_below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
-        self.modes()?.below(z, pencil, limit)
-    }
-
-    /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
-    ///
-    /// # Errors
-    /// As [`Lifted::spectrum`].
-    pub fn cut(&self, z: &[f64], w: &[f64], pencil: Pencil, limit: f64) -> Result<(Vec<f64>, f64), EvaluationError> {
-        self.modes()?.cut(z, w, pencil, limit)
-    }
-
-    fn modes(&self) -> Result<&Modes, EvaluationError> {
+    /// None is asked for.
+    pub fn modes(&self) -> Result<&Modes, EvaluationError> {
         let none = || EvaluationError::Invalid { term: "modes of the structure".into(), cause: "none is asked for".into() };
         self.model.first().modes().ok_or_else(none)
     }

@@ -18,7 +18,7 @@ pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, remaining: &
         return;
     }
     let by_modes = || matrix_bound::relaxed(subject, (&outcome.x, outcome.objective?), AGREEMENT, remaining, interrupt);
-    let Some(relaxed) = relaxed(subject, remaining, interrupt).or_else(by_modes) else { return };
+    let Some(relaxed) = by_modes().or_else(|| relaxed(subject, remaining, interrupt)) else { return };
     match outcome.status {
         Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
             outcome.scope = Extent::Global;

@@ -108,7 +108,7 @@ fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, EvaluationErro
         if clusters.iter().any(|cluster| limit.follows_from(&cluster.limit)) {
             continue;
         }
-        let spectrum = model.lifted().spectrum(&z, limit.pencil)?;
+        let spectrum = model.lifted().modes()?.spectrum(&z, limit.pencil)?;
         let shown = |mode: u32| {
             let mu = spectrum.values.get(mode as usize - 1).copied().filter(|mu| *mu > 0.0);
             mu.map_or(f64::INFINITY, |mu| limit.pencil.shown(mu))
@@ -120,7 +120,7 @@ fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, EvaluationErro
             continue;
         };
         let vectors = &spectrum.vectors[limit.number as usize - 1..last as usize];
-        let basis = model.lifted().stiffness_times(&z, limit.pencil, vectors)?;
+        let basis = model.lifted().modes()?.stiffness_times(&z, limit.pencil, vectors)?;
         let is_tight = (limit.number..last).any(|mode| (shown(mode + 1) / shown(mode) - 1.0).abs() <= APART);
         clusters.push(Cluster { limit, modes: limit.number..=last, basis, is_tight });
     }
@@ -155,7 +155,7 @@ fn meets_limits(subject: &Subject, x: &[f64]) -> Result<bool, EvaluationError> {
     let Some(model) = subject.analysis() else { return Ok(true) };
     let (z, tolerance) = (model.solved(x)?, subject.settings.constraint_tolerance);
     for limit in limited(subject.problem()) {
-        let below = model.lifted().modes_below(&z, limit.pencil, limit.limit * (1.0 - tolerance))?;
+        let below = model.lifted().modes()?.below(&z, limit.pencil, limit.limit * (1.0 - tolerance))?;
         if below >= limit.number as usize {
             return Ok(false);
         }

@@ -79,10 +79,10 @@ fn is_affine(problem: &Problem) -> bool {
 fn cuts(subject: &Subject, limit: &Limited, x: &[f64]) -> Result<Vec<Constraint>, EvaluationError> {
     let Some(model) = subject.analysis() else { return Ok(Vec::new()) };
     let z = model.solved(x)?;
-    let vectors = model.lifted().spectrum(&z, limit.pencil)?.vectors;
+    let vectors = model.lifted().modes()?.spectrum(&z, limit.pencil)?.vectors;
     let mut rows = Vec::new();
     for w in vectors.iter().take(MODES) {
-        let (slope, value) = model.lifted().cut(&z, w, limit.pencil, limit.limit)?;
+        let (slope, value) = model.lifted().modes()?.cut(&z, w, limit.pencil, limit.limit)?;
         rows.push(row(&subject.problem().constraints[limit.constraint], &slope[..x.len()], value, x));
     }
     Ok(rows)

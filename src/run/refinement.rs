@@ -106,7 +106,7 @@ fn solved(problem: &Problem, pencil: Pencil, x: &[f64]) -> Result<Vec<f64>, Eval
     let failed = |cause: String| EvaluationError::Invalid { term: "modes of the structure".into(), cause };
     let lifted = Lifted::of(&Arc::new(asked)).map_err(|error| failed(error.to_string()))?;
     let model = Reduced::of(lifted, false).ok_or_else(|| failed("there are no states".into()))?;
-    let spectrum = model.lifted().spectrum(&model.solved(x)?, pencil)?;
+    let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil)?;
     Ok(spectrum.values.iter().filter(|mu| **mu > 0.0).take(LISTED).map(|&mu| pencil.shown(mu)).collect())
 }
 

@@ -29,7 +29,7 @@ const COINCIDENT: f64 = 1e-6;
 const NEVER: f64 = 1e30;
 
 /// The eigenvalues that a problem asks for.
-pub(super) struct Modes {
+pub struct Modes {
     energies: Energies,
     wanted: Vec<Eigenvalue>,
     cuts: Arc<Vec<Cut>>,
@@ -51,7 +51,7 @@ struct Smooth {
 
 impl Modes {
     /// `None` where none is asked for.
-    pub fn of(
+    pub(super) fn of(
         problem: &Problem,
         structure: &Structure,
         statics: &Statics,
@@ -68,7 +68,7 @@ impl Modes {
     }
 
     /// Their number.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.wanted.len()
     }
 
@@ -82,18 +82,27 @@ impl Modes {
     }
 
     /// All μ and φ of a pencil at design and displacements.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
     pub fn spectrum(&self, z: &[f64], pencil: Pencil) -> Result<Spectrum, EvaluationError> {
         let (k, b) = (self.energies.matrix(z, pencil, 1.0, 0.0)?, self.energies.matrix(z, pencil, 0.0, 1.0)?);
         spectrum(&k, &b).map_err(|_| failed("the structure is a mechanism: a motion meets no resistance"))
     }
 
     /// Eigenvalues below a limit: the negative pivots of K − B/μ there (Sylvester's law of inertia).
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
     pub fn below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
         let matrix = self.energies.matrix(z, pencil, 1.0, -1.0 / pencil.inverse(limit))?;
         Ok(matrix.negative_eigenvalues())
     }
 
     /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
     pub fn cut(&self, z: &[f64], w: &[f64], pencil: Pencil, limit: f64) -> Result<(Vec<f64>, f64), EvaluationError> {
         let share = -1.0 / pencil.inverse(limit);
         let matrix = self.energies.matrix(z, pencil, 1.0, share)?;
@@ -101,6 +110,9 @@ impl Modes {
     }
 
     /// K·v at design and displacements.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
     pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
         let k = self.energies.matrix(z, pencil, 1.0, 0.0)?;
         Ok(vectors.iter().map(|vector| k.times(vector)).collect())
