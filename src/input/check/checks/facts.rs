@@ -65,6 +65,24 @@ impl Facts {
     }
 }
 
+impl Facts {
+    /// Which side of a code's joins was taken by where the design starts, in words.
+    pub fn sides(&self, code: &Code) -> Option<String> {
+        let side = |axis: usize, below: &str, above: &str| if self.slender[axis] { above.to_owned() } else { below.to_owned() };
+        match code {
+            Code::En { bending: Some(bending), .. } if bending.cm.is_some() && self.bends => {
+                let (y, z) = (side(0, "at most 1", "above 1"), side(1, "at most 1", "above 1"));
+                Some(format!("k_yy as for lambda_y {y}, k_zz as for lambda_z {z}, as at the start"))
+            }
+            Code::Aisc { .. } if self.slender.contains(&true) => {
+                let (y, z) = (side(0, "below", "beyond"), side(1, "below", "beyond"));
+                Some(format!("{y} the join of E3 about y, {z} it about z, as at the start"))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Code {
     /// The clauses, as reports name them.
     pub(super) fn clauses(&self) -> String {

@@ -111,6 +111,14 @@ impl Assembly<'_> {
         let mut list: Vec<(Key, Row, Vec<u32>)> = Vec::new();
         let mut known: HashMap<Key, usize> = HashMap::new();
         for (facts, ribs) in groups {
+            if let Some(sides) = facts.sides(code) {
+                let first = self.problem.item_name(Collection::Ribs, ribs[0]);
+                let more = if ribs.len() > 1 { format!(" and {} more", ribs.len() - 1) } else { String::new() };
+                let told = format!("{first}{more}: {sides}");
+                if !check.assumptions.contains(&told) {
+                    check.assumptions.push(told);
+                }
+            }
             for row in facts.rows(code) {
                 let station = row.station.filter(|_| facts.tapered).map(f64::to_bits);
                 let key = (row.clause.clone(), row.detail.clone(), row.short.clone(), row.require.clone(), station);
