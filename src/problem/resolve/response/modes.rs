@@ -25,7 +25,7 @@ impl<'a> Resolver<'a, '_> {
                 );
             }
             (Some(next), _) => match self.scalar(next.ast)? {
-                Formula::Constant(number) if number >= 1.0 && number <= MOST && number.fract() == 0.0 => number,
+                Formula::Constant(number) if (1.0..=MOST).contains(&number) && number.fract() == 0.0 => number,
                 _ => {
                     let help = "1 for the lowest, 2 for the next: a whole number".to_string();
                     return self.mistake(next.ast.span, "this is no number of a mode", Some(help));
