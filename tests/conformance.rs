@@ -11,15 +11,7 @@ use ribopt::run::{Choice, Subject};
 use support::{Promise, diagnosis, name, problem_files, read, solve};
 
 /// Backend, problem, and why the one need not solve the other.
-const EXCLUDED: &[(&str, &str, &str)] = &[
-    ("nlopt", "modes/strongest-column", COINCIDING),
-    ("argmin", "modes/strongest-column", COINCIDING),
-    ("nlopt", "modes/ten-bar-frequencies", COINCIDING),
-    ("argmin", "modes/ten-bar-frequencies", COINCIDING),
-];
-
-/// Single eigenvalues have no derivative at these optima.
-const COINCIDING: &str = "coinciding modes are judged in a further round, which a single run has not";
+const EXCLUDED: &[(&str, &str, &str)] = &[];
 
 /// Relative distance to the known optimum.
 const ACCURACY: f64 = 1e-7;
