@@ -94,7 +94,17 @@ impl Response {
 
 /// The eigenvalues that objective and rows ask for, each once.
 pub fn eigenvalues(problem: &Problem) -> Vec<Eigenvalue> {
+    found(problem, &[])
+}
+
+/// Those that definitions ask for, too, be they used or not.
+pub fn defined(problem: &Problem) -> Vec<Eigenvalue> {
+    found(problem, &problem.definitions)
+}
+
+fn found(problem: &Problem, definitions: &[(String, Formula)]) -> Vec<Eigenvalue> {
     let mut walk = Walk { problem, seen: vec![false; problem.definitions.len()], found: Vec::new() };
+    definitions.iter().for_each(|(_, formula)| walk.visit(formula));
     walk.visit(&problem.objective);
     for constraint in &problem.constraints {
         walk.visit(&constraint.left);
@@ -187,22 +197,23 @@ pub fn follow(problem: &mut Problem) {
 /// The problem with cuts in the place of limits: those at `replaced` and what follows from them go, each cut is a row named like the
 /// constraint it stands for.
 pub fn with_cuts(problem: &Problem, replaced: &[Limited], cuts: Vec<(usize, Box<str>, Cut)>) -> Problem {
-    let mut cut = problem.clone();
     let gone: Vec<usize> = limited(problem)
         .iter()
         .filter(|limit| replaced.iter().any(|other| limit.follows_from(other)))
         .map(|limit| limit.constraint)
         .collect();
+    let mut cut = without(problem, &gone);
     for (number, (constraint, detail, _)) in cuts.iter().enumerate() {
         let own = problem.constraints[*constraint].clone();
         let response = Response { what: What::Cut(number as u32), ..cuts[number].2.pencil.response(1) };
         cut.constraints.push(Constraint { detail: detail.clone(), left: Formula::Response(Arc::new(response)), ..own });
     }
     cut.cuts = Arc::new(cuts.into_iter().map(|(.., cut)| cut).collect());
-    let mut at = 0;
-    cut.constraints.retain(|_| {
-        at += 1;
-        !gone.contains(&(at - 1))
-    });
     cut
+}
+
+/// The problem without the constraints at these places.
+pub fn without(problem: &Problem, gone: &[usize]) -> Problem {
+    let kept = problem.constraints.iter().enumerate().filter(|(at, _)| !gone.contains(at));
+    Problem { constraints: kept.map(|(_, constraint)| constraint.clone()).collect(), ..problem.clone() }
 }

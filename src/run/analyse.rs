@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::refinement::{self, Lowest};
 use super::{RunError, Subject};
 use crate::model::{Assembled, AssemblyError, EvaluationError, assemble_any};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
 use crate::report::text::listing;
 use responses::Responses;
@@ -113,15 +113,7 @@ fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
 
 /// The problem with one row per definition.
 fn of_definitions(problem: &Problem) -> Result<Assembled, AssemblyError> {
-    let row = |at: usize| Constraint {
-        name: problem.definitions[at].0.clone(),
-        detail: Box::default(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Once,
-        left: Formula::Definition(at as u32),
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    };
+    let row = |at: usize| Constraint::unlimited(problem.definitions[at].0.clone(), Scope::Once, Formula::Definition(at as u32));
     let constraints = (0..problem.definitions.len()).map(row).collect();
     let objective = Formula::default();
     assemble_any(&Arc::new(Problem { constraints, objective, ..problem.clone() }))

@@ -13,7 +13,7 @@ use super::unobserved::{by_interior_point, unobserved};
 use crate::crosscheck::{Outcome, Task};
 use crate::expression::operators::{Binary, Fold};
 use crate::model::EvaluationError;
-use crate::problem::modes::{Limited, Pencil, limited};
+use crate::problem::modes::{Limited, Pencil, limited, without};
 use crate::problem::{Constraint, Dimension, Formula, Limit, Problem};
 
 /// Rounds of cutting planes; each brings the bound up.
@@ -32,16 +32,13 @@ pub(super) fn relaxed(
     interrupt: Option<&AtomicBool>,
 ) -> Option<Outcome> {
     let problem = subject.problem();
-    let limits: Vec<Limited> = limited(problem).into_iter().filter(|limit| limit.pencil == Pencil::Vibration).collect();
-    if limits.is_empty() || limits.len() != limited(problem).len() || !is_affine(problem) {
+    let limits = limited(problem);
+    let by_frequencies = limits.iter().all(|limit| limit.pencil == Pencil::Vibration);
+    if limits.is_empty() || !by_frequencies || !is_affine(problem) {
         return None;
     }
-    let mut rest = problem.clone();
-    let mut at = 0;
-    rest.constraints.retain(|_| {
-        at += 1;
-        !limits.iter().any(|limit| limit.constraint == at - 1)
-    });
+    let gone: Vec<usize> = limits.iter().map(|limit| limit.constraint).collect();
+    let mut rest = without(problem, &gone);
     let (mut point, mut best) = (x.to_vec(), None);
     for _ in 0..ROUNDS {
         for limit in limits.iter().filter(|limit| limit.number == 1) {

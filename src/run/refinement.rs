@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Subject;
 use crate::model::{EvaluationError, Lifted, Reduced};
-use crate::problem::modes::{Eigenvalue, Pencil, eigenvalues};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::modes::{Eigenvalue, Pencil, defined, eigenvalues};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 
 /// The lowest factors or frequencies of a structure.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,10 +44,8 @@ pub fn all(problem: &Problem, x: &[f64]) -> Vec<Lowest> {
 
 /// The pencils that the problem (its definitions, too) asks for.
 pub(super) fn asked(problem: &Problem) -> Vec<Pencil> {
-    let rows = problem.definitions.iter().map(|(_, formula)| free(formula.clone())).chain(problem.constraints.iter().cloned());
-    let all = Problem { constraints: rows.collect(), ..problem.clone() };
     let mut pencils: Vec<Pencil> = Vec::new();
-    for one in eigenvalues(&all) {
+    for one in defined(problem) {
         if let Eigenvalue::Number(pencil, _) = one
             && !pencils.contains(&pencil)
         {
@@ -100,7 +98,7 @@ fn of_pencil(problem: &Problem, pencil: Pencil, x: &[f64]) -> Option<Lowest> {
 }
 
 fn solved(problem: &Problem, pencil: Pencil, x: &[f64]) -> Result<Vec<f64>, EvaluationError> {
-    let constraints = vec![free(Formula::Response(Arc::new(pencil.response(1))))];
+    let constraints = vec![Constraint::unlimited("", Scope::Once, Formula::Response(Arc::new(pencil.response(1))))];
     let objective = Formula::default();
     let asked = Problem { constraints, objective, auxiliaries: Vec::new(), cuts: Arc::default(), ..problem.clone() };
     let failed = |cause: String| EvaluationError::Invalid { term: "modes of the structure".into(), cause };
@@ -108,17 +106,4 @@ fn solved(problem: &Problem, pencil: Pencil, x: &[f64]) -> Result<Vec<f64>, Eval
     let model = Reduced::of(lifted, false).ok_or_else(|| failed("there are no states".into()))?;
     let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil)?;
     Ok(spectrum.values.iter().filter(|mu| **mu > 0.0).take(LISTED).map(|&mu| pencil.shown(mu)).collect())
-}
-
-/// A row without a limit.
-fn free(left: Formula) -> Constraint {
-    Constraint {
-        name: String::new(),
-        detail: Box::default(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Once,
-        left,
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    }
 }

@@ -9,7 +9,7 @@ use crate::problem::formula::{Response, Subject, What};
 use crate::problem::modes::Eigenvalue;
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 use crate::structure::algebra::Numbers;
 use crate::structure::deformation::{BASIC, support_rows};
 
@@ -30,10 +30,7 @@ pub(super) fn forces_problem(problem: &Problem, structure: &Structure, statics: 
     for set in 0..structure.cases.len() as u32 {
         for (what, ribs) in forces(structure, statics, set) {
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
-            let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
-            let (name, place, text) = ("force".into(), String::new(), String::new());
-            let detail = Box::default();
-            inner.constraints.push(Constraint { name, detail, place, text, scope: Scope::Ribs(ribs), left, right });
+            inner.constraints.push(Constraint::unlimited("force", Scope::Ribs(ribs), left));
         }
     }
     inner

@@ -15,7 +15,7 @@ use crate::problem::formula::{Energy, Response, Subject, What};
 use crate::problem::modes::Pencil;
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 
 /// The energies of a structure in a mode.
 pub(super) struct Energies {
@@ -216,13 +216,6 @@ fn at_nodes(structure: &Structure, directions: &Directions) -> (Diagonal, Diagon
 }
 
 fn energy_row(energy: Energy, set: u32, piece: u32, ribs: Vec<u32>) -> Constraint {
-    Constraint {
-        name: "energy".into(),
-        detail: Box::default(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Ribs(ribs),
-        left: Formula::Response(Arc::new(Response { set, subject: Subject::Own, what: What::Modal(energy, piece) })),
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    }
+    let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what: What::Modal(energy, piece) }));
+    Constraint::unlimited("energy", Scope::Ribs(ribs), left)
 }
