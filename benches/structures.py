@@ -4,8 +4,8 @@
 usage: structures.py FOLDER BINARY [--out DIR] [--only ID …] [--backend NAME …] [--seconds S] [--write]
 
 FOLDER holds files of the format structure-optimum/1. Two shapes are read: trusses with `limits` (stress by member, displacement by nodes)
-and structures with `variables` and `rows` (responses and geometric expressions). Files with buckling or frequency rows are told as left out
-until ribopt computes these. A file is right where the objective is within 1e-8 of the optimum (or lower) and certified.
+and structures with `variables` and `rows` (responses and geometric expressions); further columns of equal segments with a buckling factor, and
+trusses with `frequency_limits`. A file is right where the objective is within 1e-8 of the optimum (or lower) and certified.
 """
 import argparse
 import glob
@@ -93,6 +93,12 @@ class Sections:
     """Sections with their variables: `x1.b` names its dimension, `b1` that of the section whose name ends in 1."""
 
     def __init__(self, case):
+        case.setdefault("cases", {})
+        case["supports"] = [s if isinstance(s, dict) else {"node": s[0], "fix": list(s[1])} for s in case["supports"]]
+        if "frequency_limits" in case:
+            self.of_groups(case)
+        if "lower_area" in case:
+            self.of_column(case)
         self.own = {name: dict(values) for name, values in case["sections"].items()}
         self.names = {}
         for variable in case.get("variables", []):
@@ -105,6 +111,30 @@ class Sections:
             self.names[variable["name"]] = f"{section}.{dimension}"
             for other, dimension in targets[1:]:
                 self.own[other][dimension] = self.names[variable["name"]]
+
+    @staticmethod
+    def of_groups(case):
+        """One section per group of bars; those without a group have the fixed area."""
+        case["plane"] = case.get("plane", "xy")
+        lower = case["area_lower"]
+        case["sections"] = {}
+        for member in case["members"]:
+            group = member.get("group")
+            member["section"] = "fixed" if group is None else f"g{group}"
+            area = case["fixed_area"] if group is None else {"lower": lower, "start": 50 * lower}
+            case["sections"][member["section"]] = {"kind": "general", "A": area}
+
+    @staticmethod
+    def of_column(case):
+        """Symmetric columns with EI = A^2: one variable per pair of segments."""
+        members = case["members"]
+        for at, member in enumerate(members):
+            area = f"A{min(at, len(members) - 1 - at) + 1}"
+            member["section"] = f"s_{at}"
+            inertia = f"{area}^2/{case['materials']['s']['E']!r}"
+            case["sections"][f"s_{at}"] = {"kind": "general", "A": area, "Ix": inertia, "Iy": inertia, "J": 1.0}
+        case["sections"] = {m["section"]: case["sections"][m["section"]] for m in members}
+        case["scalars"] = {f"A{at + 1}": {"lower": case["lower_area"], "start": 1.0} for at in range((len(members) + 1) // 2)}
 
     def guess(self, name):
         dimension, number = re.fullmatch(r"([a-z]+)(\d+)", name).groups()
@@ -130,6 +160,7 @@ def rows(case, sections):
         elif lower is not None:
             yield f"row{number + 1}", f"{left} >= {lower!r}"
     yield from truss_rows(case)
+    yield from mode_rows(case)
 
 
 def truss_rows(case):
@@ -154,8 +185,20 @@ def truss_rows(case):
                            f"{-limit!r} <= disp({load}, {quoted(str(node))}, {name}) <= {limit!r}")
 
 
+def mode_rows(case):
+    required = case["optimum"].get("required")
+    if required is not None:
+        yield "stable", f"buckling({next(iter(case['cases']))}) >= {float(required)!r}"
+    for limit in case.get("frequency_limits", []):
+        yield f"f{limit['modes_from']}", f"frequency({limit['modes_from']}) >= {float(limit['hz'])!r}"
+
+
 def objective(case):
     text = case["minimize"]
+    if "bars with variable area" in text:
+        return f"sum(ribs where varies == 1: {next(iter(case['materials'].values()))['density']!r}*volume)"
+    if "sum(A)/" in text:
+        return "volume_prismatoid"
     if "density * sum(A*L)" in text:
         density = next(m.get("density", m.get("rho")) for m in case["materials"].values())
         return f"{density!r}*volume"
@@ -166,9 +209,11 @@ def objective(case):
 
 def problem(case):
     """The problem file's text. LookupError names a response that is not computed."""
-    plane, sections = case.get("plane"), Sections(case)
+    sections = Sections(case)
+    plane = case.get("plane")
     pinned = all(m.get("type") == "truss" for m in case["members"])
     lines = [f"title = {toml(case['title'])}", f"minimize = {toml(objective(case))}", "[structure]"]
+    lines += ["buckling_pieces = 1"] if "lower_area" in case else []  # one element per segment is part of their definition
     lines += ([f'plane = "{plane}"'] if plane else []) + (['joints = "pinned"'] if pinned else [])
     gravity = next((c["gravity"] for c in case["cases"].values() if "gravity" in c), None)
     if gravity:
@@ -180,6 +225,10 @@ def problem(case):
         if "G" in kept:
             kept.pop("nu", None)
         lines.append(f"{key(name)} = {toml(kept | ({'density': density} if density else {}))}")
+    if case.get("node_masses"):
+        lines += ["[masses]"] + [f"{key(str(node))} = {float(mass)!r}" for node, mass in case["node_masses"]]
+    if case.get("scalars"):
+        lines += ["[variables]"] + [f"{name} = {toml(bounds)}" for name, bounds in case["scalars"].items()]
     lines.append("[nodes]")
     lines += [f"{key(name)} = {toml(at)}" for name, at in case["nodes"].items()]
     lines.append("[supports]")
@@ -194,6 +243,8 @@ def problem(case):
         rib |= {k: m[k] for k in ("from", "to", "section", "up", "roll", "shear") if k in m}
         if m.get("type") == "truss" and not pinned:
             rib["joints"] = "pinned"
+        if "frequency_limits" in case:
+            rib["data"] = {"varies": 0.0 if m.get("group") is None else 1.0}
         hinges = {end: m[f"release_{end}"] for end in ("start", "end") if f"release_{end}" in m}
         offset = {end: vector(plane, m[f"offset_{end}"]) for end in ("start", "end") if f"offset_{end}" in m}
         rib |= ({"hinges": hinges} if hinges else {}) | ({"offset": offset} if offset else {})

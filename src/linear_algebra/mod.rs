@@ -18,6 +18,7 @@ mod ordering;
 mod outcome;
 pub mod partition;
 pub mod pattern;
+pub mod pencil;
 mod quasi_definite;
 pub mod saddle_point;
 pub mod signed_least_squares;

@@ -4,6 +4,7 @@
 
 mod equations;
 mod maps;
+mod modes;
 mod names;
 
 use std::collections::HashMap;
@@ -11,15 +12,18 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 pub use super::states::States;
 use super::stiffness::{Factors, Mechanism, Stiffness};
-use super::views::composed::Composed;
+use super::views::composed::{Composed, Links};
 use super::views::mapped::{Mapped, Maps};
 use super::with_states::WithStates;
 use super::{AssemblyError, Evaluation, EvaluationError, Meta, Model, NameTable, Own, RibModel, assemble, auxiliaries};
 use crate::problem::kinks::Auxiliary;
+use crate::problem::modes::eigenvalues;
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use crate::problem::{Origin, Problem};
 use maps::{Known, deformations, links, outer_meta};
+pub use modes::Modes;
+use modes::WithModes;
 use names::LiftedNames;
 
 /// A structure in design variables and displacements.
@@ -29,7 +33,7 @@ use names::LiftedNames;
 /// positive as negative eigenvalues whatever L_uu is, the inertia of the lifted system is that of the reduced one and of these
 /// (Haynsworth 1968).
 pub struct Lifted {
-    model: Composed<Mapped<RibModel>, RibModel>,
+    model: Composed<WithModes<Mapped<RibModel>>, RibModel>,
     problem: Arc<Problem>,
     states: States,
     /// Node and direction of each state of a block.
@@ -50,14 +54,17 @@ impl Lifted {
     pub fn of(problem: &Arc<Problem>) -> Result<Lifted, AssemblyError> {
         let (structure, statics) = prepared(problem);
         let own = problem.variables.lower.len();
+        let wanted = eigenvalues(problem);
         let directions: Vec<(u32, u8)> = (0..structure.nodes.names.len() as u32)
             .flat_map(|node| (0..6u8).map(move |direction| (node, direction)))
             .filter(|&(node, direction)| statics.is_free(node, direction.into()))
             .collect();
         let forces = assemble(&Arc::new(equations::forces_problem(problem, structure, statics)))?;
-        let rows = assemble(&Arc::new(equations::rows_problem(problem, structure, statics)))?;
+        let rows = assemble(&Arc::new(equations::rows_problem(problem, structure, statics, wanted.clone())))?;
         let first_row = rows.meta().rows();
-        let states = States { first_variable: own, first_row, block: directions.len(), blocks: structure.cases.len() };
+        // Without a case nothing is displaced; modes have displacements of their own.
+        let block = if structure.cases.is_empty() { 0 } else { directions.len() };
+        let states = States { first_variable: own, first_row, block, blocks: structure.cases.len() };
         let numbering = Numbering { states, of: directions.iter().zip(0..).map(|(&at, number)| (at, number)).collect() };
         let mut maps = Maps::default();
         deformations(structure, statics, &numbering, &mut maps);
@@ -65,12 +72,21 @@ impl Lifted {
         let names =
             LiftedNames { own: rows.meta().names.clone(), problem: Arc::clone(problem), states, directions: directions.clone() };
         let meta = Meta { names: NameTable::new(names), ..outer_meta(rows.meta(), states, &limits) };
+        let modes = Modes::of(problem, structure, statics, &numbering, wanted)?;
         let own_rows = known.len();
         let right_sides = [vec![0.0; own_rows], limits].concat();
         let of_forces = Meta { row_lower: right_sides.clone(), row_upper: right_sides, ..meta.clone() };
-        let links = links(structure, statics, &numbering, &known);
-        let model = Composed::new(Mapped::new(forces, maps, of_forces), rows, links, own_rows, meta);
-        let stiffness = Stiffness::of(model.first().meta(), states);
+        let mut links = links(structure, statics, &numbering, &known);
+        let count = modes.as_ref().map_or(0, Modes::count);
+        for at in 0..count {
+            links.variables.push([]);
+            links.rows.push([((own_rows + at) as u32, 1.0)]);
+            links.constants.push(0.0);
+        }
+        let first = WithModes::new(Mapped::new(forces, maps, of_forces), modes, own_rows);
+        let meta = Meta { row_is_linear: linear_rows(&meta, rows.meta(), &links), ..meta };
+        let model = Composed::new(first, rows, links, own_rows + count, meta);
+        let stiffness = Stiffness::of(model.first().first().meta(), states);
         let problem = Arc::clone(problem);
         let mut lifted = Lifted { model, problem, states, directions, stiffness, latest: Mutex::default() };
         lifted.start_analysed();
@@ -138,7 +154,7 @@ impl Lifted {
     /// # Errors
     /// Where the state equations have no value.
     pub fn mechanism(&self, x: &[f64]) -> Result<Option<Mechanism>, EvaluationError> {
-        self.stiffness.mechanism(self.model.first(), x)
+        self.stiffness.mechanism(self.model.first().first(), x)
     }
 
     /// The largest residual of a state equation at design and states, over the largest sum of the sizes of one's terms.
@@ -146,13 +162,29 @@ impl Lifted {
     /// # Errors
     /// Where the state equations have no value.
     pub fn residual(&self, z: &[f64]) -> Result<f64, EvaluationError> {
-        self.stiffness.residual(self.model.first(), z)
+        self.stiffness.residual(self.model.first().first(), z)
+    }
+
+    /// The modes of the eigenvalues that are asked for.
+    ///
+    /// # Errors
+    /// None is asked for.
+    pub fn modes(&self) -> Result<&Modes, EvaluationError> {
+        let none = || EvaluationError::Invalid { term: "modes of the structure".into(), cause: "none is asked for".into() };
+        self.model.first().modes().ok_or_else(none)
     }
 
     /// The model of the user's rows, over design variables and inputs.
     pub fn inner(&self) -> &RibModel {
         self.model.second()
     }
+}
+
+/// Rows that are affine in design and displacements: those affine in inputs that are.
+fn linear_rows(meta: &Meta, inner: &Meta, links: &Links) -> Vec<bool> {
+    let is_affine = |&input: &u32| links.rows.row(input as usize).is_empty();
+    let affine = |row: usize| row >= inner.rows() || inner.jacobian.row(row).iter().all(is_affine);
+    (0..meta.rows()).map(|row| meta.is_row_linear(row) && affine(row)).collect()
 }
 
 /// The structure and what was prepared of it.
@@ -183,7 +215,7 @@ impl Numbering {
 
 impl WithStates for Lifted {
     fn solve_states(&self, x: &[f64], earlier: Option<Factors>) -> Result<(Vec<f64>, Factors), EvaluationError> {
-        self.stiffness.solve_states(self.model.first(), x, earlier)
+        self.stiffness.solve_states(self.model.first().first(), x, earlier)
     }
 
     fn auxiliaries(&self) -> Option<(&[Auxiliary], usize)> {

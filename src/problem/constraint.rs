@@ -22,6 +22,15 @@ pub struct Constraint {
     pub right: Limit,
 }
 
+impl Constraint {
+    /// Rows whose values are asked for: without a limit, a place or a text.
+    pub fn unlimited(name: impl Into<String>, scope: Scope, left: Formula) -> Constraint {
+        let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
+        let (place, text, detail) = (String::new(), String::new(), Box::default());
+        Constraint { name: name.into(), detail, place, text, scope, left, right }
+    }
+}
+
 /// What a row's left side is held against.
 #[derive(Debug, Clone)]
 #[allow(missing_docs)]

@@ -85,6 +85,25 @@ pub enum What {
     Support(u8),
     /// The force at an end in a global direction, of a member whose nodes move with the design: 0 to 11.
     End(u8),
+    /// The buckling factor of this number under the case, counted from the lowest positive one.
+    Buckling(u32),
+    /// The natural frequency of this number, in cycles per time.
+    Frequency(u32),
+    /// What a [`super::modes::Cut`] of the problem says of limited eigenvalues, by its number.
+    Cut(u32),
+    /// An energy of a member's piece in a mode: the matrices of buckling and vibration are made of them.
+    Modal(Energy, u32),
+}
+
+/// Which energy of a piece in a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Energy {
+    /// ½·wᵀKw: of strain.
+    Strain,
+    /// ½·wᵀGw: of the case's axial forces on the inclined axis.
+    Prestress,
+    /// ½·wᵀMw: of the piece's mass at unit velocity of the mode.
+    Inertia,
 }
 
 /// A response of the structure.

@@ -18,6 +18,7 @@ mod item_scope;
 pub mod items;
 pub mod kinks;
 pub mod mentions;
+pub mod modes;
 pub mod names;
 pub(crate) mod nearest;
 pub mod order;
@@ -87,6 +88,10 @@ pub struct Problem {
     pub first_input: u32,
     /// Whether members known by their basic forces have these for inputs, rather than deformations.
     pub inputs_are_forces: bool,
+    /// Eigenvalues of the structure that are inputs after those of cases and combinations, in the inner problem of a structure.
+    pub eigenvalues: Vec<modes::Eigenvalue>,
+    /// Limits on eigenvalues that coincide, direction by direction.
+    pub cuts: Arc<Vec<modes::Cut>>,
     /// What follows from it, see [`Problem::prepare`].
     pub statics: Option<Arc<statics::Statics>>,
     /// `[solver]`.

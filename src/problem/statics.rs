@@ -4,6 +4,8 @@
 //! The forces of a member are functions of few inputs: its dimensions and its deformations. Deformations are fixed combinations of
 //! displacements, so the assembled model knows them as inputs of its own, and [`crate::model::lifted`] puts the displacements in.
 
+mod pieces;
+
 use super::structure::{Action, Plane, Structure};
 use super::{Dimension, Problem};
 use crate::structure::Components;
@@ -35,6 +37,8 @@ pub struct Statics {
     pub inputs: u32,
     /// The first of the nodes' inputs.
     first_node: u32,
+    /// Pieces that members are cut into for buckling and vibration, in all.
+    pub pieces: u32,
 }
 
 /// A member, prepared.
@@ -48,6 +52,12 @@ pub struct Prepared {
     pub rows: Rows<f64>,
     /// Which basic forces it carries.
     pub components: Components,
+    /// Which it could carry without hinges: its inner pieces do.
+    pub unhinged: Components,
+    /// Pieces it is cut into for buckling and vibration, and the first of them.
+    pub pieces: u32,
+    /// The first of them among all.
+    pub first_piece: u32,
     /// Where integrals over its length are cut.
     pub grading: Vec<f64>,
     /// Whether its nodes stay where they are: then its inputs are deformations, else the twelve displacements of its ends.
@@ -87,10 +97,11 @@ impl Statics {
                 loads_at[node as usize].push(number as u32);
             }
         }
-        let mut next = 0;
+        let (mut next, mut pieces) = (0, 0);
         for member in &mut members {
-            member.first_input = next;
+            (member.first_input, member.first_piece) = (next, pieces);
             next += member.width() as u32;
+            pieces += member.pieces;
         }
         let nodes = structure.nodes.names.len();
         let mut members_at = vec![Vec::new(); nodes];
@@ -101,7 +112,7 @@ impl Statics {
         let mut fixed = vec![[false; 6]; nodes];
         structure.supports.iter().for_each(|support| fixed[support.node as usize] = support.fixed);
         let exists = existing(structure, &members);
-        Some(Statics { members, members_at, loads_at, exists, fixed, inputs: next + 6 * nodes as u32, first_node: next })
+        Some(Statics { members, members_at, loads_at, exists, fixed, inputs: next + 6 * nodes as u32, first_node: next, pieces })
     }
 
     /// The input of a member's deformation in a case or combination, counted from the first input of all; `None` where it is released.
@@ -187,9 +198,18 @@ fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::
     let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
     let fixed = member.absent || ends.iter().all(|&node| structure.nodes.position[node as usize].iter().all(constant));
     let components = components(structure.plane, member, &rows);
+    let unhinged = super::structure::Member { hinges: Default::default(), ..member.clone() };
+    let unhinged = self::components(structure.plane, &unhinged, &rows);
+    let pieces = match (member.absent, member.pinned) {
+        (true, _) => 0,
+        // Between its hinges a bar stays straight.
+        (false, true) => 1,
+        (false, false) => structure.buckling_pieces.max(1),
+    };
     let by_forces = fixed && !member.pinned && has_constant_moduli(structure, member.material);
     let grading = graded(steepest(problem, member.rib));
-    Prepared { rule, frame, rows, components, grading, fixed, by_forces, loads: Vec::new(), first_input: 0 }
+    let (loads, first_input, first_piece) = (Vec::new(), 0, 0);
+    Prepared { rule, frame, rows, components, unhinged, pieces, first_piece, grading, fixed, by_forces, loads, first_input }
 }
 
 /// Whether E and G are numbers.

@@ -5,9 +5,10 @@ pub(super) mod responses;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::refinement::{self, Lowest};
 use super::{RunError, Subject};
 use crate::model::{Assembled, AssemblyError, EvaluationError, assemble_any};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 use crate::report::answer::EarlierAnswer;
 use crate::report::text::listing;
 use responses::Responses;
@@ -24,6 +25,8 @@ pub struct Analysis {
     pub variables: Vec<String>,
     /// What the structure does, by case and combination.
     pub cases: Vec<CaseResponses>,
+    /// The lowest buckling factors and frequencies.
+    pub modes: Vec<Lowest>,
     /// The point that was analysed, by variable.
     pub x: Vec<f64>,
     /// What is odd about it, in sentences.
@@ -86,6 +89,7 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
         analysis.cases = responses.by_case(&x)?;
         analysis.equilibrium_residual = responses.residual(&x)?;
     }
+    analysis.modes = refinement::all(problem, &x);
     analysis.x = x;
     Ok(analysis)
 }
@@ -100,7 +104,8 @@ fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
         let names = listing(outside.into_iter(), 5);
         remarks.push(format!("warning: the answer is outside the bounds of {names}; it is analysed all the same"));
     }
-    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) {
+    let asks_for_modes = !refinement::asked(subject.problem()).is_empty();
+    if subject.problem().structure.as_deref().is_some_and(|structure| structure.load_sets() == 0) && !asks_for_modes {
         remarks.push("warning: nothing acts on the structure: the file has no [[loads]], and so no case to analyse".into());
     }
     remarks
@@ -108,15 +113,7 @@ fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
 
 /// The problem with one row per definition.
 fn of_definitions(problem: &Problem) -> Result<Assembled, AssemblyError> {
-    let row = |at: usize| Constraint {
-        name: problem.definitions[at].0.clone(),
-        detail: Box::default(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Once,
-        left: Formula::Definition(at as u32),
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    };
+    let row = |at: usize| Constraint::unlimited(problem.definitions[at].0.clone(), Scope::Once, Formula::Definition(at as u32));
     let constraints = (0..problem.definitions.len()).map(row).collect();
     let objective = Formula::default();
     assemble_any(&Arc::new(Problem { constraints, objective, ..problem.clone() }))

@@ -2,14 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::Subject;
 use super::remaining::Remaining;
-use super::unobserved::unobserved;
-use crate::backends::argmin::Argmin;
+use super::unobserved::{by_interior_point, unobserved};
+use super::{Subject, matrix_bound};
 use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::model::relaxation::relaxation;
-use crate::run::Choice;
 
 /// A minimum no further above the bound than this, relative, is the global one: what backends may differ by and still agree.
 const AGREEMENT: f64 = 1e-6;
@@ -19,7 +17,8 @@ pub(super) fn bound_below(subject: &Subject, outcome: &mut Outcome, remaining: &
     if outcome.scope == Extent::Global || !matches!(outcome.status, Status::Certified | Status::Infeasible) {
         return;
     }
-    let Some(relaxed) = relaxed(subject, remaining, interrupt) else { return };
+    let by_modes = || matrix_bound::relaxed(subject, (&outcome.x, outcome.objective?), AGREEMENT, remaining, interrupt);
+    let Some(relaxed) = by_modes().or_else(|| relaxed(subject, remaining, interrupt)) else { return };
     match outcome.status {
         Status::Infeasible if (relaxed.status, relaxed.scope) == (Status::Infeasible, Extent::Global) => {
             outcome.scope = Extent::Global;
@@ -38,7 +37,8 @@ fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     let least = if is_global { relaxed.objective } else { relaxed.lower_bound };
     if least.is_some_and(|least| objective - least <= AGREEMENT * objective.abs().max(least.abs())) {
         outcome.scope = Extent::Global;
-        outcome.message += " No design of this layout is below it: whatever forces are in equilibrium with the loads, their limits need as much.";
+        outcome.message +=
+            " No design of this layout is below it: a convex problem whose minimum lies below every design needs as much.";
         outcome.remedy = None;
         outcome.better_point_elsewhere = false;
     }
@@ -60,5 +60,5 @@ fn relaxed(subject: &Subject, remaining: &Remaining, interrupt: Option<&AtomicBo
         starts: 1,
         interrupt,
     };
-    Some(unobserved(&task, &[Choice { backend: &Argmin, algorithm: "auto".into() }]))
+    Some(unobserved(&task, &[by_interior_point()]))
 }

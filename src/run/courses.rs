@@ -9,7 +9,7 @@ use crate::problem::evaluate::Evaluation;
 use crate::problem::formula::{Response, Subject as Of, What};
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
-use crate::problem::{Constraint, Dimension, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Dimension, Formula, Problem, Scope};
 use crate::report::structure::{CaseCourses, Courses, MemberPlace, NodePlace};
 use crate::structure::algebra::Numbers;
 use crate::structure::axes::frame;
@@ -137,15 +137,8 @@ type Deflections = Vec<Vec<[f64; 2]>>;
 impl Asked {
     fn ask(&mut self, row: Row, set: u32, scope: Scope, what: What) {
         self.rows.push(row);
-        self.constraints.push(Constraint {
-            name: String::new(),
-            detail: Box::default(),
-            place: String::new(),
-            text: String::new(),
-            scope,
-            left: Formula::Response(Arc::new(Response { set, subject: Of::Own, what })),
-            right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-        });
+        let left = Formula::Response(Arc::new(Response { set, subject: Of::Own, what }));
+        self.constraints.push(Constraint::unlimited("", scope, left));
     }
 
     fn list(&mut self, structure: &Structure, statics: &Statics, set: u32, stations: &[f64]) {

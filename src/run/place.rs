@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::problem::formula::{Response, What};
+use crate::problem::modes::NO_SET;
 use crate::problem::{Constraint, Formula, Problem};
 use crate::report::utilisation::Place;
 
@@ -86,7 +87,9 @@ impl Found {
             What::Deflection(_, station) | What::Sag(_, station, _) | What::Force(_, station) => (Some(*station), None),
             _ => (None, None),
         };
-        add(&mut self.sets, response.set);
+        if response.set != NO_SET {
+            add(&mut self.sets, response.set);
+        }
         station.into_iter().for_each(|station| add(&mut self.stations, station));
         point.into_iter().for_each(|point| add(&mut self.points, Arc::clone(point)));
     }

@@ -9,7 +9,7 @@ use super::results::Writer;
 use crate::expression::ast::Collection;
 use crate::model::{EvaluationError, assemble_any};
 use crate::problem::evaluate::{Evaluation, Item};
-use crate::problem::{Constraint, Dimension, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Dimension, Formula, Problem, Scope};
 use crate::report::cross_section::CrossSection;
 use crate::report::sizes::{self, RibVolume, Size};
 use crate::sections;
@@ -96,15 +96,8 @@ pub(super) fn rib_volumes(
     if let Some(law) = law {
         restated.ribs.law.fill(law);
     }
-    restated.constraints = vec![Constraint {
-        detail: Box::default(),
-        name: "volume".into(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Ribs((0..problem.ribs.names.len() as u32).collect()),
-        left: Formula::OwnVolume,
-        right: Limit::AtMost(Formula::Constant(f64::INFINITY)),
-    }];
+    let all = Scope::Ribs((0..problem.ribs.names.len() as u32).collect());
+    restated.constraints = vec![Constraint::unlimited("volume", all, Formula::OwnVolume)];
     let too_dense =
         |error: crate::model::AssemblyError| EvaluationError::Invalid { term: "volume".into(), cause: error.to_string() };
     let assembled = assemble_any(&Arc::new(restated)).map_err(too_dense)?;

@@ -5,15 +5,16 @@ use std::sync::atomic::AtomicBool;
 
 use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
+use super::coinciding;
 use super::courses::courses;
 use super::folder::{Folder, default_folder};
 use super::observe::Records;
 use super::present::present;
+use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
-use super::vanished::settle;
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation};
+use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::report::answer::EarlierAnswer;
@@ -51,6 +52,8 @@ pub struct Solved {
     pub utilisation: Option<utilisation::Table>,
     /// Why files could not be written: the answer is to be shown first.
     pub unwritten: Option<RunError>,
+    /// The problem that the point was judged in, where that is not the user's: without vanished bars, or with coinciding modes.
+    judged: Option<Subject>,
     place: PathBuf,
     _locked: Folder,
 }
@@ -58,6 +61,7 @@ pub struct Solved {
 impl Solved {
     /// What reports speak of.
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
+        let subject = self.judged.as_ref().unwrap_or(subject);
         Findings {
             about: &self.about,
             model: subject.shown(),
@@ -97,11 +101,11 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &request.choices, &remaining, request.interrupt));
-    outcome = settled.as_ref().map_or(outcome, |settled| settled.outcome.clone());
+    let judged = looked_at_anew(subject, &mut outcome, &request.choices, &remaining, request.interrupt);
     bound_below(subject, &mut outcome, &remaining, request.interrupt);
     strongest::explain(subject, &mut outcome, &remaining);
-    let subject = settled.as_ref().map_or(subject, |settled| &settled.subject);
+    about.warnings.extend(refinement::remarks(subject, &outcome.x));
+    let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
     about.warnings.extend(records.failures());
@@ -137,7 +141,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         }
         Ok(())
     });
-    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), place, _locked: locked, about })
+    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), judged, place, _locked: locked, about })
 }
 
 /// Solves without leaving files: every backend of the settings, or all that are built in.
@@ -149,12 +153,25 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
     let choices = choose(&[], None, &subject.settings)?;
     let task = subject.task(&subject.model().meta().start, None);
     refuse_if_none_accepts(&choices, &task)?;
-    let outcome = present(subject, unobserved(&task, &choices));
-    let settled = settle(subject, &outcome, |rest, x| nearby(rest, x, &choices, &remaining, None));
-    let mut outcome = settled.map_or(outcome, |settled| settled.outcome);
+    let mut outcome = present(subject, unobserved(&task, &choices));
+    looked_at_anew(subject, &mut outcome, &choices, &remaining, None);
     bound_below(subject, &mut outcome, &remaining, None);
     strongest::explain(subject, &mut outcome, &remaining);
     Ok(outcome)
+}
+
+/// Judges an outcome anew where modes coincide or bars have vanished: the problem it is then an outcome of.
+fn looked_at_anew(
+    subject: &Subject,
+    outcome: &mut Outcome,
+    choices: &[Choice],
+    remaining: &Remaining,
+    interrupt: Option<&AtomicBool>,
+) -> Option<Subject> {
+    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, remaining, interrupt);
+    let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
+    *outcome = settled.outcome;
+    Some(settled.subject)
 }
 
 /// One start of every backend from a point of the user's variables; `None` where no time is left for it.

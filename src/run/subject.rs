@@ -11,7 +11,7 @@ use crate::input::{self, Progress};
 use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope, Settings};
+use crate::problem::{Constraint, Formula, Problem, Scope, Settings};
 use crate::report::result::Mistake;
 use crate::report::{self, About, Volumes};
 
@@ -211,7 +211,8 @@ impl Subject {
 
     /// The same where dimensions are computed, through a model.
     fn assembled_volumes(&self, x: &[f64]) -> Option<[f64; 3]> {
-        let rows = [Total::Own, Total::Frustum, Total::Prismatoid].map(volume_row);
+        let rows = [Total::Own, Total::Frustum, Total::Prismatoid]
+            .map(|total| Constraint::unlimited("", Scope::Once, Formula::Volume(total)));
         let objective = Formula::default();
         let problem = Problem { constraints: rows.into(), objective, ..self.problem().clone() };
         let assembled = assemble_any(&Arc::new(problem)).ok()?;
@@ -219,20 +220,6 @@ impl Subject {
         let mut totals = [0.0; 3];
         model.constraints(x, &mut totals).ok()?;
         Some(totals)
-    }
-}
-
-/// A row whose value is a total volume.
-fn volume_row(total: Total) -> Constraint {
-    let (left, right) = (Formula::Volume(total), Limit::AtMost(Formula::Constant(f64::INFINITY)));
-    Constraint {
-        name: String::new(),
-        detail: Box::default(),
-        place: String::new(),
-        text: String::new(),
-        scope: Scope::Once,
-        left,
-        right,
     }
 }
 

@@ -1,18 +1,11 @@
 //! Bars that have vanished: the structure without them, solved and judged anew.
 
 use super::Subject;
+use super::settled::Settled;
 use crate::certificate::{Certificate, Extent, Side};
 use crate::crosscheck::{Outcome, Status};
 use crate::model::Meta;
 use crate::model::remainder::remainder;
-
-/// What a run found where bars have vanished.
-pub(super) struct Settled {
-    /// The structure without them.
-    pub subject: Subject,
-    /// What it is at their point, or near it.
-    pub outcome: Outcome,
-}
 
 /// The structure without the bars that have vanished at a point, and the point in it; `None` where none has.
 pub(super) fn without_vanished(subject: &Subject, x: &[f64]) -> Option<(Subject, Vec<f64>, String)> {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::coinciding;
 use super::present::present;
 use super::vanished::without_vanished;
 use super::{RunError, Subject};
@@ -18,6 +19,11 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
     if let Some((rest, x, remark)) = without_vanished(subject, &point) {
         let found = judged(&rest, &x);
         let message = format!("{remark}. Of the structure without them: {}", found.message);
+        return Ok(Outcome { message, scope: Extent::Local, ..found });
+    }
+    if let Some((refined, words)) = coinciding::refined(subject, &point) {
+        let found = judged(&refined, &point);
+        let message = format!("{words} {}", found.message);
         return Ok(Outcome { message, scope: Extent::Local, ..found });
     }
     Ok(judged(subject, &point))

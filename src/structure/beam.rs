@@ -1,6 +1,7 @@
 //! A straight member, prismatic or with linearly varying dimensions, as expression graphs: basic forces from deformations.
 
 mod bending;
+mod piece;
 mod section;
 
 use super::algebra::Algebra;
@@ -9,6 +10,7 @@ use super::quadrature;
 use crate::expression::graph::{Graph, NodeId};
 use crate::sections;
 pub use bending::Bending;
+pub use piece::Piece;
 pub use section::Tapered;
 
 /// Which of the basic forces N, Mz_i, Mz_j, My_i, My_j, T a member can carry; the others are released.
@@ -30,6 +32,8 @@ pub struct Beam<'a> {
     pub deforms_in_shear: bool,
     /// Where the integrals over its length are cut because of its taper.
     pub grading: &'a [f64],
+    /// Points on each part between cuts where it tapers.
+    pub points: usize,
     /// The loads of the case or combination.
     pub loads: MemberLoads<NodeId>,
     /// The deformations e of the case or combination.
@@ -83,7 +87,12 @@ impl Beam<'_> {
             self.grading.iter().copied().chain(loads).chain(more.filter(|&x| x > 0.0 && x < 1.0)).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        quadrature::pieces(&breaks, !self.section.is_prismatic())
+        quadrature::pieces(&breaks, self.points())
+    }
+
+    /// Points on each part between cuts.
+    fn points(&self) -> usize {
+        if self.section.is_prismatic() { quadrature::POLYNOMIAL } else { self.points }
     }
 
     /// The basic force number `component` (0 where it is released).

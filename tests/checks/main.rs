@@ -3,6 +3,7 @@
 mod examples;
 mod governing;
 mod printed;
+mod system;
 
 use std::path::PathBuf;
 

@@ -8,6 +8,7 @@ use ribopt::report::number::short;
 use ribopt::report::structure::AXES;
 use ribopt::report::text::TextTable;
 use ribopt::run::analyse::{Analysis, CaseResponses, Extreme};
+use ribopt::run::refinement::Lowest;
 use serde_json::{Map, Value, json};
 
 /// Rows of a table shown on the console; JSON has all.
@@ -22,6 +23,11 @@ pub fn json(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::
             analysis.cases.iter().map(|case| (case.name.clone(), case_json(case, structure, problem))).collect();
         whole["cases"] = cases.into();
     }
+    let factors = analysis.modes.iter().filter_map(|found| Some((found.case.clone()?, lowest_json(found))));
+    whole["buckling"] = factors.collect::<Map<String, Value>>().into();
+    if let Some(found) = analysis.modes.iter().find(|found| found.case.is_none()) {
+        whole["frequencies"] = lowest_json(found);
+    }
     if !analysis.gradient.is_empty() {
         let of = |row: &Vec<f64>| -> Map<String, Value> {
             analysis.variables.iter().cloned().zip(row.iter().map(|&value| json!(value))).collect()
@@ -32,6 +38,10 @@ pub fn json(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::
     }
     serde_json::to_writer_pretty(&mut *out, &whole)?;
     writeln!(out)
+}
+
+fn lowest_json(found: &Lowest) -> Value {
+    json!({ "pieces": found.pieces, "values": found.values, "with_twice_the_pieces": found.refined })
 }
 
 fn case_json(case: &CaseResponses, structure: &Structure, problem: &Problem) -> Value {
@@ -69,6 +79,7 @@ pub fn text(analysis: &Analysis, problem: &Problem, out: &mut dyn Write) -> io::
         by_node("reactions", &case.reactions, structure, out)?;
         ribs(case, problem, out)?;
     }
+    lowest(analysis, out)?;
     if !analysis.definitions.is_empty() {
         writeln!(out)?;
         analysis.definitions.iter().try_for_each(|(name, value)| writeln!(out, "{name} = {}", short(*value)))?;
@@ -114,6 +125,22 @@ fn ribs(case: &CaseResponses, problem: &Problem, out: &mut dyn Write) -> io::Res
     }
     write!(out, "{table}")?;
     more(all.len().saturating_sub(6 * MOST), "lines", out)
+}
+
+/// Buckling factors and frequencies, with what finer pieces make of them.
+fn lowest(analysis: &Analysis, out: &mut dyn Write) -> io::Result<()> {
+    if analysis.modes.is_empty() {
+        return Ok(());
+    }
+    let mut table = TextTable::new(1, &["lowest", "mode", "value", "with twice the pieces"]);
+    for found in &analysis.modes {
+        let what = found.case.as_ref().map_or("frequency".into(), |case| format!("buckling factor, {case}"));
+        for (at, &value) in found.values.iter().enumerate() {
+            let refined = found.refined.get(at).map_or(String::new(), |&value| short(value));
+            table.add(vec![what.clone(), (at + 1).to_string(), short(value), refined]);
+        }
+    }
+    write!(out, "\n{table}")
 }
 
 fn gradient(analysis: &Analysis, out: &mut dyn Write) -> io::Result<()> {

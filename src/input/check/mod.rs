@@ -29,6 +29,7 @@ use super::table::Tables;
 use crate::expression::ast::Collection;
 use crate::expression::parse::{parse, parse_requirement};
 use crate::geometry::polygon::Ring;
+use crate::problem::modes;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
 use crate::problem::{Problem, Sense};
@@ -117,6 +118,7 @@ pub(super) fn check(
     assembly.problem.settings = declared.settings.clone();
     if assembly.findings.clean() {
         assembly.problem.prepare();
+        modes::follow(&mut assembly.problem);
     }
     (assembly.problem, assembly.findings)
 }

@@ -62,7 +62,9 @@ impl Assembly<'_> {
 /// The cases and combinations of the responses in a formula.
 fn load_sets(formula: &Formula, found: &mut BTreeSet<u32>) {
     match formula {
-        Formula::Response(response) if !matches!(response.what, What::Mass | What::Length) => _ = found.insert(response.set),
+        Formula::Response(response) if !matches!(response.what, What::Mass | What::Length | What::Frequency(_)) => {
+            _ = found.insert(response.set)
+        }
         Formula::Unary(_, operand) | Formula::Profile(_, operand) => load_sets(operand, found),
         Formula::Binary(_, left, right) => {
             load_sets(left, found);

@@ -79,6 +79,13 @@ impl<'a> Framework<'a> {
         std::array::from_fn(|component| self.statics.deformation(set, member, component).map(|input| self.first_input + input))
     }
 
+    /// The inputs of a piece in a mode: displacements of its ends along and about the member's axes; global ones at the ends of a
+    /// member whose nodes move with the design.
+    pub fn modal(self, member: u32, piece: u32) -> [u32; 12] {
+        let number = self.statics.members[member as usize].first_piece + piece;
+        std::array::from_fn(|at| self.first_input + self.statics.modal(self.structure, number, at))
+    }
+
     /// The input of a node's displacement.
     pub fn displacement(self, set: u32, node: u32, direction: usize) -> u32 {
         self.first_input + self.statics.displacement(set, node, direction)

@@ -68,6 +68,12 @@ impl TemplateArguments {
             framework.shape(member, &loads, &mut self.shape);
             framework.inputs(member, set).into_iter().flatten().for_each(|input| self.variable(input));
         }
+        for &piece in &plan.pieces {
+            let prepared = framework.member(member).1;
+            let carried = prepared.of_piece(piece).iter().fold(0, |bits, &kept| 2 * bits + u32::from(kept));
+            self.shape.extend([prepared.pieces, carried]);
+            framework.modal(member, piece).into_iter().for_each(|input| self.variable(input));
+        }
         true
     }
 

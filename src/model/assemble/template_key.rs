@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use super::expression_graph::{Item, OwnNumber, end_section};
-use crate::problem::formula::{End, Formula, Subject, What};
+use crate::problem::formula::{End, Energy, Formula, Subject, What};
 use crate::problem::{Dimension, Problem};
 
 /// The names a formula uses, in a fixed order.
@@ -17,6 +17,8 @@ pub(super) struct TemplateKey {
     pub(super) numbers: Vec<OwnNumber>,
     /// Cases and combinations in which it asks for what the item does as a member of the structure.
     pub(super) sets: Vec<u32>,
+    /// Pieces of the member whose ends' displacements in a mode it asks for.
+    pub(super) pieces: Vec<u32>,
     /// Variables it names globally.
     pub(super) globals: Vec<u32>,
     /// False where a name reaches beyond the item: each item is then compiled by itself.
@@ -83,6 +85,12 @@ impl TemplateKey {
                 }
                 Subject::Own if !matches!(response.what, What::Displacement(_) | What::Reaction(_) | What::Sag(..)) => {
                     (self.from, self.to) = (true, true);
+                    if let What::Modal(energy, piece) = response.what {
+                        self.pieces.push(piece);
+                        if energy == Energy::Inertia {
+                            self.number(OwnNumber::Material("density".into()));
+                        }
+                    }
                     if !self.sets.contains(&response.set) {
                         self.sets.push(response.set);
                     }
@@ -163,6 +171,7 @@ impl TemplateKey {
         }
         if let Item::Rib(rib) = item {
             self.sets.iter().for_each(|&set| lowering.own_member(rib, set));
+            self.pieces.iter().for_each(|&piece| lowering.own_piece(rib, piece));
         }
         lowering.close();
         for &variable in &self.globals {

@@ -6,17 +6,19 @@ use super::{Known, Numbering, with_inputs};
 use crate::model::views::mapped::Maps;
 use crate::model::{Model, RibModel};
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::modes::Eigenvalue;
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 use crate::structure::algebra::Numbers;
 use crate::structure::deformation::{BASIC, support_rows};
 
 /// The user's problem over design variables and inputs: basic forces of members known by them, in every case and combination.
-pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics) -> Problem {
+pub(super) fn rows_problem(problem: &Problem, structure: &Structure, statics: &Statics, eigenvalues: Vec<Eigenvalue>) -> Problem {
     let mut inner = problem.clone();
-    with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize);
+    with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize + eigenvalues.len());
     inner.inputs_are_forces = true;
+    inner.eigenvalues = eigenvalues;
     inner
 }
 
@@ -28,10 +30,7 @@ pub(super) fn forces_problem(problem: &Problem, structure: &Structure, statics: 
     for set in 0..structure.cases.len() as u32 {
         for (what, ribs) in forces(structure, statics, set) {
             let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
-            let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
-            let (name, place, text) = ("force".into(), String::new(), String::new());
-            let detail = Box::default();
-            inner.constraints.push(Constraint { name, detail, place, text, scope: Scope::Ribs(ribs), left, right });
+            inner.constraints.push(Constraint::unlimited("force", Scope::Ribs(ribs), left));
         }
     }
     inner

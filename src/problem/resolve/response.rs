@@ -5,6 +5,7 @@
 
 mod arguments;
 mod items;
+mod modes;
 mod stress;
 
 use std::sync::Arc;
@@ -14,6 +15,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection};
 use crate::problem::Formula;
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::modes::Pencil;
 use crate::problem::structure::Structure;
 use crate::structure::beam::Force;
 use arguments::{Argument, Arguments, axis, shape};
@@ -31,10 +33,7 @@ impl<'a> Resolver<'a, '_> {
         }
         let mut arguments = Arguments { list: arguments.iter().map(Argument::of).collect(), span };
         let formula = match name {
-            "buckling" | "frequency" => {
-                let help = "buckling and frequencies are not computed by this version";
-                return self.mistake(span, format!("`{name}` is not available"), Some(help.into()));
-            }
+            "frequency" => self.eigenvalue(structure, Pencil::Vibration, &mut arguments)?,
             _ => {
                 let set = self.case(structure, &mut arguments)?;
                 if !self.report.open.sets.contains(&set) {
@@ -53,6 +52,7 @@ impl<'a> Resolver<'a, '_> {
     fn of_case(&mut self, structure: &Structure, name: &str, set: u32, arguments: &mut Arguments) -> Option<Formula> {
         let one = |subject, what| Formula::Response(Arc::new(Response { set, subject, what }));
         match name {
+            "buckling" => self.eigenvalue(structure, Pencil::Buckling(set), arguments),
             "compliance" => Some(one(Subject::Whole, What::Compliance)),
             "disp" | "reaction" => {
                 let node = self.node(structure, name, arguments)?;

@@ -8,7 +8,7 @@ use crate::model::{AssemblyError, EvaluationError, Lifted, Model, Reduced};
 use crate::problem::formula::{Response, Subject, What};
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Plane, Structure};
-use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use crate::problem::{Constraint, Formula, Problem, Scope};
 use crate::sections;
 use crate::structure::beam::Force;
 
@@ -144,9 +144,7 @@ fn list(
 ) {
     let mut ask = |row: Row, scope: Scope, what: What| {
         let left = Formula::Response(Arc::new(Response { set, subject: Subject::Own, what }));
-        let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
-        let (name, place, text) = (String::new(), String::new(), String::new());
-        constraints.push(Constraint { name, detail: Box::default(), place, text, scope, left, right });
+        constraints.push(Constraint::unlimited("", scope, left));
         rows.push(row);
     };
     let nodes = 0..structure.nodes.names.len() as u32;

@@ -224,6 +224,14 @@ impl<'b, 'a> Bending<'b, 'a> {
         graph.sum(&parts)
     }
 
+    /// M(x)/EI, of an unloaded member.
+    pub fn curvature(&self, graph: &mut Graph, x: f64) -> NodeId {
+        let moment = self.moment(graph, x);
+        let inertia = self.beam.section.property(graph, x, self.inertia);
+        let stiffness = Algebra::multiply(graph, self.beam.young, inertia);
+        Algebra::divide(graph, moment, stiffness)
+    }
+
     /// V(x) = (M_j − M_i)/L + V_p(x).
     pub fn shear_force(&self, graph: &mut Graph, x: f64) -> NodeId {
         let (start, end) = (self.end_moment(graph, 0), self.end_moment(graph, 1));

@@ -31,6 +31,15 @@ impl<'a> Lowering<'a> {
         }
     }
 
+    /// The slots of what moves the ends of the rib's piece in a mode.
+    pub fn own_piece(&mut self, rib: u32, piece: u32) {
+        if let Some(framework) = Framework::of(self.problem)
+            && let Some(member) = framework.structure.member(rib)
+        {
+            framework.modal(member, piece).into_iter().for_each(|input| _ = self.variable(input));
+        }
+    }
+
     /// The dimensions of a section at the end of a member: those of the item where it is the item's.
     pub(super) fn item_section(&mut self, section: u32) -> Rc<[NodeId]> {
         match self.own_sections.get(&section) {

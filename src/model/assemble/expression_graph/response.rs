@@ -1,6 +1,7 @@
 //! Graphs of what a structure does.
 
 mod members;
+mod modes;
 
 use super::{Context, Item, Lowering, OwnNumber, end_section};
 use crate::expression::graph::NodeId;
@@ -34,6 +35,8 @@ impl Lowering<'_> {
                 self.variable(framework.displacement(response.set, node, usize::from(*direction)))
             }
             (What::Reaction(direction), Some(node), _) => self.reaction(framework, response.set, node, usize::from(*direction)),
+            (What::Buckling(_) | What::Frequency(_) | What::Cut(_), ..) => self.eigenvalue(framework, response),
+            (What::Modal(energy, piece), _, Some(member)) => self.modal(framework, member, response.set, *energy, *piece),
             (What::Compliance, ..) => self.compliance(framework, response.set),
             (What::Mass, _, Some(member)) => self.mass(framework, member, response.subject == Subject::Own),
             (what, _, Some(member)) => self.of_member(framework, member, response.set, what),

@@ -169,6 +169,8 @@ pub(super) fn shape(name: &str) -> &'static str {
         "sag" => "sag(CASE, y or z)",
         "force" => "force(CASE, RIB, N | Vy | Vz | T | My | Mz, station)",
         "stress" => "stress(CASE, RIB, station, POINT)",
+        "buckling" => "buckling(CASE) or buckling(CASE, k)",
+        "frequency" => "frequency(k)",
         "vonmises" => "vonmises(CASE, RIB, station, POINT)",
         _ => "compliance(CASE)",
     }

@@ -10,6 +10,7 @@ use crate::structure::algebra::Algebra;
 use crate::structure::axes::{Frame, frame};
 use crate::structure::beam::{Beam, Tapered};
 use crate::structure::deformation::rows;
+use crate::structure::quadrature::TAPERED;
 
 impl Lowering<'_> {
     /// The nodes of a member in a case or combination, made once.
@@ -135,6 +136,7 @@ impl Lowering<'_> {
             components: prepared.components,
             deforms_in_shear: declared.shear,
             grading: &prepared.grading,
+            points: TAPERED,
             loads: nodes.loads,
             deformations: nodes.deformations,
             forces: nodes.forces,

@@ -1,0 +1,259 @@
+//! Eigenvalues as rows of a model over design and displacements.
+//!
+//! With φᵀKφ = 1 and D_z = B_z − μK_z, a simple μ of B φ = μ K φ has μ_z = φᵀD_zφ and
+//! μ_zz' = φᵀ(B_zz' − μK_zz')φ − μ_z·φᵀK_z'φ − μ_z'·φᵀK_zφ + 2·Σ_j (φ_jᵀD_zφ)(φ_jᵀD_z'φ)/(μ − μ_j)
+//! (Nelson 1976; Haug, Choi and Komkov, *Design Sensitivity Analysis of Structural Systems*, 1986). Displacements are among the z: through
+//! them the prestress changes with the design.
+
+mod directions;
+mod energies;
+mod with_modes;
+
+pub(super) use with_modes::WithModes;
+
+use super::Numbering;
+use crate::linear_algebra::pencil::{Bordered, Spectrum, Symmetric, spectrum};
+use crate::model::{AssemblyError, EvaluationError};
+use crate::problem::Problem;
+use crate::problem::modes::{Cut, Eigenvalue, Pencil};
+use crate::problem::statics::Statics;
+use crate::problem::structure::Structure;
+use energies::{Derivatives, Energies};
+use std::sync::Arc;
+
+/// Of two values of μ that are nearer than this, relative to the larger, it cannot be said which mode is which: what bends one of them
+/// against the other is no curvature of a smooth function, and is left out. [`Cut`]s are smooth there.
+const COINCIDENT: f64 = 1e-6;
+
+/// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
+const NEVER: f64 = 1e30;
+
+/// The eigenvalues that a problem asks for.
+pub struct Modes {
+    energies: Energies,
+    wanted: Vec<Eigenvalue>,
+    cuts: Arc<Vec<Cut>>,
+}
+
+/// The matrices at one point, and what was solved of them.
+struct Solved<'m> {
+    modes: &'m Modes,
+    z: Vec<f64>,
+    spectra: Vec<(Pencil, Spectrum)>,
+}
+
+/// A value and its derivatives along design and displacements.
+struct Smooth {
+    slope: Vec<f64>,
+    /// By (z, z') with z' ≤ z.
+    curvature: Vec<(usize, usize, f64)>,
+}
+
+impl Modes {
+    /// `None` where none is asked for.
+    pub(super) fn of(
+        problem: &Problem,
+        structure: &Structure,
+        statics: &Statics,
+        numbering: &Numbering,
+        wanted: Vec<Eigenvalue>,
+    ) -> Result<Option<Self>, AssemblyError> {
+        if wanted.is_empty() {
+            return Ok(None);
+        }
+        let cuts = Arc::clone(&problem.cuts);
+        let pencils: Vec<Pencil> = wanted.iter().map(|one| pencil(one, &cuts)).collect();
+        let energies = Energies::of(problem, structure, statics, numbering, &pencils)?;
+        Ok(Some(Modes { energies, wanted, cuts }))
+    }
+
+    /// Their number.
+    pub(super) fn count(&self) -> usize {
+        self.wanted.len()
+    }
+
+    /// The variables each value depends on.
+    fn columns(&self) -> Vec<Vec<u32>> {
+        self.wanted.iter().map(|one| self.energies.columns(pencil(one, &self.cuts))).collect()
+    }
+
+    fn at<'m>(&'m self, z: &[f64]) -> Solved<'m> {
+        Solved { modes: self, z: z.to_vec(), spectra: Vec::new() }
+    }
+
+    /// All μ and φ of a pencil at design and displacements.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
+    pub fn spectrum(&self, z: &[f64], pencil: Pencil) -> Result<Spectrum, EvaluationError> {
+        let (k, b) = (self.energies.matrix(z, pencil, 1.0, 0.0)?, self.energies.matrix(z, pencil, 0.0, 1.0)?);
+        spectrum(&k, &b).map_err(|_| failed("the structure is a mechanism: a motion meets no resistance"))
+    }
+
+    /// Eigenvalues below a limit: the negative pivots of K − B/μ there (Sylvester's law of inertia).
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
+    pub fn below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
+        let matrix = self.energies.matrix(z, pencil, 1.0, -1.0 / pencil.inverse(limit))?;
+        Ok(matrix.negative_eigenvalues())
+    }
+
+    /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
+    pub fn cut(&self, z: &[f64], w: &[f64], pencil: Pencil, limit: f64) -> Result<(Vec<f64>, f64), EvaluationError> {
+        let share = -1.0 / pencil.inverse(limit);
+        let matrix = self.energies.matrix(z, pencil, 1.0, share)?;
+        Ok((self.energies.slope(z, w, pencil, 1.0, share)?, dot(w, &matrix.times(w))))
+    }
+
+    /// K·v at design and displacements.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
+    pub fn stiffness_times(&self, z: &[f64], pencil: Pencil, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, EvaluationError> {
+        let k = self.energies.matrix(z, pencil, 1.0, 0.0)?;
+        Ok(vectors.iter().map(|vector| k.times(vector)).collect())
+    }
+}
+
+fn pencil(one: &Eigenvalue, cuts: &[Cut]) -> Pencil {
+    match *one {
+        Eigenvalue::Number(pencil, _) => pencil,
+        Eigenvalue::Cut(cut) => cuts[cut as usize].pencil,
+    }
+}
+
+fn failed(cause: impl ToString) -> EvaluationError {
+    EvaluationError::Invalid { term: "modes of the structure".into(), cause: cause.to_string() }
+}
+
+impl Solved<'_> {
+    fn spectrum(&mut self, pencil: Pencil) -> Result<&Spectrum, EvaluationError> {
+        let known = self.spectra.iter().position(|(known, _)| *known == pencil);
+        let at = match known {
+            Some(at) => at,
+            None => {
+                self.spectra.push((pencil, self.modes.spectrum(&self.z, pencil)?));
+                self.spectra.len() - 1
+            }
+        };
+        Ok(&self.spectra[at].1)
+    }
+
+    /// The values asked for, as users know them; [`NEVER`] where so many modes do not buckle.
+    fn values(&mut self) -> Result<Vec<f64>, EvaluationError> {
+        let modes = self.modes;
+        let value = |one: &Eigenvalue| match *one {
+            Eigenvalue::Number(pencil, number) => {
+                let mu = self.spectrum(pencil)?.values.get(number as usize - 1).copied().unwrap_or(0.0);
+                Ok(if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER })
+            }
+            Eigenvalue::Cut(cut) => {
+                let cut = &modes.cuts[cut as usize];
+                let (w, s, _) = self.seen(cut)?;
+                let remaining: f64 = w.iter().zip(s.times(&w)).map(|(a, b)| a * b).sum();
+                Ok(shown(cut, remaining))
+            }
+        };
+        modes.wanted.iter().map(value).collect()
+    }
+
+    /// What a cut sees: w, S, and the system they come from.
+    fn seen(&self, cut: &Cut) -> Result<(Vec<f64>, Symmetric, Bordered), EvaluationError> {
+        let energies = &self.modes.energies;
+        let s = energies.matrix(&self.z, cut.pencil, 1.0, -1.0 / cut.pencil.inverse(cut.limit))?;
+        let k = energies.matrix(&self.z, cut.pencil, 1.0, 0.0)?;
+        let bordered = Bordered::new(&s, &cut.basis, &k);
+        Ok((bordered.stationary(&cut.direction), s, bordered))
+    }
+
+    /// The first derivatives of a value, and the second where they are asked for.
+    fn smooth(&mut self, one: Eigenvalue, curved: bool) -> Result<Smooth, EvaluationError> {
+        match one {
+            Eigenvalue::Number(pencil, number) => self.of_number(pencil, number as usize - 1, curved),
+            Eigenvalue::Cut(cut) => self.of_cut(&self.modes.cuts[cut as usize], curved),
+        }
+    }
+
+    fn of_number(&mut self, pencil: Pencil, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
+        let energies = &self.modes.energies;
+        let z = self.z.clone();
+        let spectrum = self.spectrum(pencil)?;
+        let mu = spectrum.values.get(at).copied().unwrap_or(0.0);
+        if mu <= 0.0 {
+            return Ok(Smooth { slope: vec![0.0; z.len()], curvature: Vec::new() });
+        }
+        let phi = &spectrum.vectors[at];
+        let [first, second] = pencil.slopes(mu);
+        if !curved {
+            let slope = energies.slope(&z, phi, pencil, -mu, 1.0)?;
+            return Ok(Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature: Vec::new() });
+        }
+        let stiffness = energies.slope(&z, phi, pencil, 1.0, 0.0)?;
+        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&z, phi, pencil, -mu, 1.0)?;
+        let mut shares = vec![Vec::new(); mixed.len()];
+        let apart: Vec<(f64, &Vec<f64>)> = spectrum.values.iter().copied().zip(&spectrum.vectors).collect();
+        let apart: Vec<_> = apart.into_iter().filter(|(other, _)| (mu - other).abs() > COINCIDENT * mu.max(*other)).collect();
+        for (share, mixed) in shares.iter_mut().zip(&mixed).filter(|(_, mixed)| !mixed.is_empty()) {
+            *share = apart.iter().map(|(_, vector)| dot(vector, mixed)).collect();
+        }
+        let weighted =
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(&apart).map(|((a, b), (other, _))| a * b / (mu - other)).sum() };
+        let active: Vec<usize> =
+            (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !shares[z].is_empty()).collect();
+        for (at, &i) in active.iter().enumerate() {
+            for &j in &active[..=at] {
+                let turned =
+                    if shares[i].is_empty() || shares[j].is_empty() { 0.0 } else { 2.0 * weighted(&shares[i], &shares[j]) };
+                curvature.push((i, j, turned - slope[i] * stiffness[j] - slope[j] * stiffness[i]));
+            }
+        }
+        Ok(chained(slope, curvature, &active, first, second))
+    }
+
+    fn of_cut(&self, cut: &Cut, curved: bool) -> Result<Smooth, EvaluationError> {
+        let energies = &self.modes.energies;
+        let (w, s, bordered) = self.seen(cut)?;
+        let limit = cut.pencil.inverse(cut.limit);
+        let remaining: f64 = dot(&w, &s.times(&w));
+        // m = limit·(1 − b) is μ to first order.
+        let [first, second] = cut.pencil.slopes(limit * (1.0 - remaining));
+        let (first, second) = (-limit * first, limit * limit * second);
+        if !curved {
+            let slope = energies.slope(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
+            return Ok(Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature: Vec::new() });
+        }
+        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
+        let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
+        let moving: Vec<usize> = active.iter().copied().filter(|&z| !mixed[z].is_empty()).collect();
+        let columns: Vec<Vec<f64>> = moving.iter().map(|&z| mixed[z].clone()).collect();
+        let projected = bordered.project(&columns);
+        for (a, &i) in moving.iter().enumerate() {
+            for (b, &j) in moving[..=a].iter().enumerate() {
+                curvature.push((i, j, -2.0 * dot(&columns[a], &projected[b])));
+            }
+        }
+        Ok(chained(slope, curvature, &active, first, second))
+    }
+}
+
+/// g(m(z)) from the derivatives of m and g.
+fn chained(slope: Vec<f64>, mut curvature: Vec<(usize, usize, f64)>, active: &[usize], first: f64, second: f64) -> Smooth {
+    curvature.iter_mut().for_each(|(.., value)| *value *= first);
+    for (at, &i) in active.iter().enumerate() {
+        curvature.extend(active[..=at].iter().map(|&j| (i, j, second * slope[i] * slope[j])));
+    }
+    Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature }
+}
+
+/// What a cut shows where this is left of S.
+fn shown(cut: &Cut, remaining: f64) -> f64 {
+    cut.pencil.shown(cut.pencil.inverse(cut.limit) * (1.0 - remaining))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
