@@ -57,16 +57,13 @@ pub(super) fn find(
         let held = |rows: Vec<usize>| held_rows(point, rows);
         let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
         let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
-        follow(point, active, &directions, (&free, &strict), tolerances, false)
+        follow(point, active, &directions, (&free, &strict), tolerances)
+            .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
             .or_else(|| {
-                (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances, false))?
-            })
-            .or_else(|| {
-                (dependent && !all.is_empty())
-                    .then(|| follow(point, active, &directions, (&movable(), &all), tolerances, false))?
+                (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?
             })
     } else {
-        follow(point, active, &directions, (&[], &[]), tolerances, false)
+        follow(point, active, &directions, (&[], &[]), tolerances)
     };
     match found {
         Some((direction, fall)) => {
@@ -100,19 +97,18 @@ pub(super) fn beyond(point: &Point<'_>, active: &Active<'_>, class: Class, toler
     };
     let axes = farthest.into_iter().take(OUTWARDS).map(axis);
     let directions: Vec<Vec<f64>> = axes.chain([way.clone()]).collect();
-    let (direction, fall) = follow(point, active, &directions, (&free, &held), tolerances, true)?;
+    let (direction, fall) = follow(point, active, &directions, (&free, &held), tolerances)?;
     let fall = if may_be_endless(point, class) { fall } else { Fall::Settling };
     Some(Ray { fall, direction, from: point.x.to_vec() })
 }
 
-/// The first of the directions, each both ways, that runs off; `begins_here`: on a floor that lies at the point or below it.
+/// The first of the directions, each both ways, that runs off.
 fn follow(
     point: &Point<'_>,
     active: &Active<'_>,
     directions: &[Vec<f64>],
     (free, held): (&[usize], &[(usize, f64)]),
     tolerances: &Tolerances,
-    begins_here: bool,
 ) -> Option<(Vec<f64>, Fall)> {
     let is_feasible = |x: &[f64]| {
         !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
@@ -129,8 +125,7 @@ fn follow(
     let valley = Valley::new(site);
     let both =
         directions.iter().flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
-    let begins = |direction: &Vec<f64>| !begins_here || valley.begins_here(direction);
-    both.into_iter().filter(begins).find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
+    both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
 /// Rows with the limits they are held to.

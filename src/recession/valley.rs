@@ -19,6 +19,8 @@ const DECADES: i32 = 310;
 const BISECTIONS: usize = 60;
 /// A place within this of the point, in sizes, is the same but for rounding and what is accepted of rows.
 const BESIDE: f64 = 1e-3;
+/// Halvings of the way to a floor at which it must not rise: at a strict minimum it does however near.
+const HALVINGS: std::ops::RangeInclusive<i32> = 1..=10;
 /// Doublings between heights that are compared for endlessness: nearly a decade.
 const DECADE: usize = 3;
 
@@ -86,7 +88,11 @@ impl<'a> Valley<'a> {
     pub fn runs_off(&self, direction: &[f64]) -> Option<Fall> {
         let lead = Lead::new(&self.site, direction)?;
         let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
+        let unmoved = self.height(&start)?;
         let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
+        if !self.is_beside(&here.x) && !self.leads_to(&here, base, unmoved) {
+            return None;
+        }
         let heights = self.outwards(&lead, here.clone(), base)?;
         let decades: Vec<Height> = heights.iter().rev().step_by(DECADE).rev().copied().collect();
         if is_endless(&decades) {
@@ -97,17 +103,16 @@ impl<'a> Valley<'a> {
         (falls || self.rises_back(&lead, here, base)).then_some(Fall::Settling)
     }
 
-    /// Whether the floor lies at the point or below it. From a point that is not stationary Newton's steps may lead anywhere (from
-    /// beside the tip of a cone): a floor above the point is none.
-    pub fn begins_here(&self, direction: &[f64]) -> bool {
-        let begins = || {
-            let lead = Lead::new(&self.site, direction)?;
-            let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
-            let unmoved = self.height(&start)?;
-            let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
-            Some(!base.rises_above(unmoved) || self.is_beside(&here.x))
+    /// Whether the straight way from the point to a floor never rises, as far as it is feasible: Newton's steps may lead anywhere (from beside
+    /// the tip of a cone, or where the objective does not bend up), and what falls from a floor beyond a rise says nothing of the point.
+    fn leads_to(&self, floor: &Floor, height: Height, unmoved: Height) -> bool {
+        let rises = |halving: i32| {
+            let share = f64::from(-halving).exp2();
+            let x: Vec<f64> = self.site.x.iter().zip(&floor.x).map(|(from, to)| from + share * (to - from)).collect();
+            let there = Floor { x, multipliers: floor.multipliers.clone() };
+            self.height(&there).is_none_or(|height| height.rises_above(unmoved)) && (self.site.is_feasible)(&there.x)
         };
-        begins().unwrap_or(false)
+        !height.rises_above(unmoved) && !HALVINGS.into_iter().any(rises)
     }
 
     /// Whether a place is where the point is, but for what its rows tolerate.
