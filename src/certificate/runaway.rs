@@ -1,7 +1,7 @@
 //! Variables that run away: the point passes only because the objective flattens out, and would go on falling for ever (exp(x)
 //! towards −∞), or because a term has no value at the bound it falls towards. Such an infimum is not attained.
 
-use super::feasibility::worst_violation;
+use super::feasibility::{self, worst_violation};
 use super::higher_order::Trial;
 use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
@@ -113,7 +113,11 @@ fn follow(
     tolerances: &Tolerances,
 ) -> Option<(Vec<f64>, Fall)> {
     let is_feasible = |x: &[f64]| {
-        !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
+        let meets = |there: Point<'_>| {
+            worst_violation(&there).1 <= tolerances.constraint
+                || feasibility::of(&there, tolerances.constraint).infeasibility <= tolerances.constraint
+        };
+        !point.is_over() && Point::new(point.origin, x).is_ok_and(meets)
     };
     let site = Site {
         model: &point.origin.model,

@@ -60,6 +60,9 @@ fn take(site: &Site<'_>, moving: &[usize], step: &[f64], x: &mut [f64]) -> f64 {
 /// digits of the larger of both only, which may be far more than variables far out have left.
 pub(super) fn back_to_rows(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<Floor> {
     let moving: Vec<usize> = site.free.iter().copied().filter(|&j| j != pivot).collect();
+    if moving.is_empty() {
+        return Some(place);
+    }
     for _ in 0..CORRECTIONS {
         let step = newton_step(site, &moving, &place, Towards::Rows)?;
         if take(site, &moving, &step, &mut place.x) <= SETTLED {

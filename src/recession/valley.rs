@@ -129,7 +129,9 @@ impl<'a> Valley<'a> {
                 if doubling >= ENOUGH { break } else { return None }
             };
             let (is_feasible, settled, height) = self.on_rows(lead, settled, height);
-            if !is_feasible || height.value > last.value + last.noise + height.noise {
+            // What is left of a fall of fifteen digits is rounding of the steps that lead there.
+            let level = last.noise + height.noise + ROUNDINGS * (base.value - last.value);
+            if !is_feasible || height.value > last.value + level {
                 // So far from the start that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
                 let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
                 if is_lost { break } else { return None }
