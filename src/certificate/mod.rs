@@ -5,6 +5,7 @@
 mod candidates;
 mod farkas;
 mod feasibility;
+mod first_order;
 mod gap;
 mod higher_order;
 mod idle_rows;
@@ -24,13 +25,14 @@ mod second_order;
 mod tests;
 mod types;
 
-use feasibility::{Feasibility, worst_violation};
+use feasibility::worst_violation;
+use first_order::is_stationary;
 use std::time::Instant;
 
-use multipliers::{Multipliers, Taken};
+use multipliers::Multipliers;
 use newton::Newton;
 use point::{Origin, Point};
-use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
+use residuals::{beyond_rounding, lost_in_rounding, objective_lost};
 use runaway::Runaway;
 use second_order::{Active, Curvature, Hessian};
 
@@ -41,9 +43,6 @@ pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
 pub use types::{Certificate, Extent, Side, Tolerances};
-
-/// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
-const REFINABLE: f64 = 1e-2;
 
 /// The slope about a point counts up to so many times that at the point, which makes every direction there a flat one: a function
 /// as steep as x⁶⁰ has any slope about it.
@@ -109,7 +108,7 @@ impl<'a> Certifier<'a> {
     pub fn way_beyond(&self, x: &[f64]) -> Option<Ray> {
         let mut point = Point::new(&self.origin, x).ok()?;
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let (multipliers, found) = self.stationarity(&mut point, None, &feasibility);
+        let (multipliers, found) = first_order::found(&mut point, None, &feasibility, &self.tolerances);
         let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
         let is_feasible = found.is_feasible(&self.tolerances);
         is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
@@ -127,7 +126,7 @@ impl<'a> Certifier<'a> {
     pub fn certify(&self, x: &[f64], guess: Option<&[f64]>) -> Result<Certificate, EvaluationError> {
         let mut point = Point::new(&self.origin, x)?;
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let (multipliers, mut certificate) = self.stationarity(&mut point, guess, &feasibility);
+        let (multipliers, mut certificate) = first_order::found(&mut point, guess, &feasibility, &self.tolerances);
         if certificate.dual_infeasibility > self.tolerances.optimality && certificate.is_feasible(&self.tolerances) {
             certificate.dual_infeasibility = beyond_rounding(&point, &multipliers)?;
         }
@@ -137,12 +136,12 @@ impl<'a> Certifier<'a> {
         if lost > self.tolerances.optimality {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
-        if self.is_stationary(&certificate)
+        if is_stationary(&certificate, &self.tolerances)
             && let Some(gain) = gap::beyond_the_slope(&point, &multipliers)
         {
             certificate.complementarity = certificate.complementarity.max(gain);
         }
-        if self.is_stationary(&certificate) && !point.meta().objective_is_linear {
+        if is_stationary(&certificate, &self.tolerances) && !point.meta().objective_is_linear {
             if point.sigma == 0.0 {
                 point.add_curvature()?;
                 point.relies_on_curvature = true;
@@ -160,57 +159,6 @@ impl<'a> Certifier<'a> {
         Ok(certificate)
     }
 
-    /// Multipliers and first-order residuals: a witness that passes, refined where that helps, spares the search.
-    fn stationarity(
-        &self,
-        point: &mut Point<'_>,
-        witness: Option<&[f64]>,
-        feasibility: &Feasibility,
-    ) -> (Multipliers, Certificate) {
-        if let Some(witness) = witness.filter(|_| feasibility.infeasibility <= self.tolerances.constraint) {
-            let offers = [Taken::Active, Taken::Near].into_iter();
-            let mut offers = offers.filter_map(|taken| multipliers::from_witness(point, witness, taken));
-            if let Some(passed) = offers.find_map(|offered| self.tested(point, offered, feasibility)) {
-                return passed;
-            }
-        }
-        let mut found = multipliers::find(point, witness);
-        let mut certificate = self.first_order(point, &found, feasibility);
-        if witness.is_some() && certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
-            // A guess decides where the search begins, and may lead it astray where limits depend on one another.
-            let unguided = multipliers::find(point, None);
-            let own = self.first_order(point, &unguided, feasibility);
-            if self.is_stationary(&own) {
-                (found, certificate) = (unguided, own);
-            }
-        }
-        if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
-            // Without second derivatives the slope alone has to do.
-            point.add_curvature().unwrap_or_default();
-            point.relies_on_curvature = true;
-            certificate = self.first_order(point, &found, feasibility);
-        }
-        (found, certificate)
-    }
-
-    /// A witness with the residuals it leaves, if they pass.
-    fn tested(&self, point: &Point<'_>, offered: Multipliers, feasibility: &Feasibility) -> Option<(Multipliers, Certificate)> {
-        let offered_certificate = self.first_order(point, &offered, feasibility);
-        let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
-        if residual(&offered_certificate) > REFINABLE {
-            return None;
-        }
-        let refined = multipliers::refined(point, &offered).map(|refined| {
-            let certificate = self.first_order(point, &refined, feasibility);
-            (refined, certificate)
-        });
-        let best = match refined {
-            Some(refined) if residual(&refined.1) <= residual(&offered_certificate) => refined,
-            _ => (offered, offered_certificate),
-        };
-        self.is_stationary(&best.1).then_some(best)
-    }
-
     /// Multipliers that prove where those found do not: rows that push nowhere leave theirs open.
     fn with_idle_rows(
         &self,
@@ -220,7 +168,7 @@ impl<'a> Certifier<'a> {
     ) -> Result<Multipliers, EvaluationError> {
         let (rows, bounds) = (&certificate.row_sides, &certificate.bound_sides);
         let idle = idle_rows::of(point, (rows, bounds));
-        if idle.is_empty() || self.class.is_global() || !self.is_stationary(certificate) {
+        if idle.is_empty() || self.class.is_global() || !is_stationary(certificate, &self.tolerances) {
             return Ok(multipliers);
         }
         self.hessian(point, &multipliers)?;
@@ -245,7 +193,7 @@ impl<'a> Certifier<'a> {
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
         let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
-        if !self.is_stationary(certificate) {
+        if !is_stationary(certificate, &self.tolerances) {
             if certificate.is_feasible(&self.tolerances) {
                 certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
             }
@@ -307,34 +255,6 @@ impl<'a> Certifier<'a> {
         }
     }
 
-    /// The three residuals and the active sides.
-    fn first_order(&self, point: &Point<'_>, multipliers: &Multipliers, feasibility: &Feasibility) -> Certificate {
-        let (meta, sigma) = (point.meta(), point.scale());
-        let (y, z) = (&multipliers.rows, &multipliers.bounds);
-        let touch = self.tolerances.constraint;
-        let row_side = |i: usize| {
-            let (lower, upper) = (meta.row_lower[i], meta.row_upper[i]);
-            let limit = if (point.rows[i] - lower).abs() < (point.rows[i] - upper).abs() { lower } else { upper };
-            let near = touch * limit.abs().max(point.slopes[i]);
-            point::side(point.rows[i], lower, upper, y[i] * point.slopes[i] / sigma, near, point.slopes[i])
-        };
-        let bound_side = |j: usize| {
-            let d = point.sizes[j];
-            point::side(point.x[j], meta.lower[j], meta.upper[j], z[j] * d / sigma, touch * d, d)
-        };
-        Certificate {
-            objective: point.objective,
-            primal_infeasibility: feasibility.infeasibility,
-            feasible_only_at_infinity: feasibility.only_far_away,
-            dual_infeasibility: worst_slope(point, multipliers, None).1,
-            complementarity: residuals::complementarity(point, multipliers, self.tolerances.optimality),
-            row_sides: (0..meta.rows()).map(row_side).collect(),
-            bound_sides: (0..meta.variables()).map(bound_side).collect(),
-            sigma: point.sigma,
-            ..Certificate::default()
-        }
-    }
-
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.
     fn hessian(&self, point: &mut Point<'_>, multipliers: &Multipliers) -> Result<Hessian, EvaluationError> {
         if self.class.is_global() {
@@ -367,16 +287,9 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x)?;
         let multipliers = multipliers::find(&point, None);
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let Certificate { row_sides, bound_sides, .. } = self.first_order(&point, &multipliers, &feasibility);
+        let Certificate { row_sides, bound_sides, .. } = first_order::of(&point, &multipliers, &feasibility, &self.tolerances);
         let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
         let hessian = self.hessian(&mut point, &multipliers)?;
         Ok(second_order::by_every_test(&point, &active, &hessian))
-    }
-
-    fn is_stationary(&self, certificate: &Certificate) -> bool {
-        let accepted = self.tolerances.optimality;
-        certificate.is_feasible(&self.tolerances)
-            && certificate.dual_infeasibility <= accepted
-            && certificate.complementarity <= accepted
     }
 }
