@@ -34,6 +34,14 @@ pub enum Command {
     Analyse(Analyse),
     /// The certificate for a point found elsewhere
     Verify(Verify),
+    /// One HTML page about a run, from the files it left: verdict, what governs, utilisation, sizes, pictures, input
+    Report {
+        /// The folder of a run, or its result.json
+        result: PathBuf,
+        /// The page; default: report.html beside the result
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Properties of cross-sections, and a picture of them
     #[command(after_help = SECTION_EXAMPLES)]
     Section(Section),
@@ -88,6 +96,9 @@ pub struct Solve {
     /// shape and the courses of its forces, too (also as VTU)
     #[arg(long)]
     pub plot: bool,
+    /// Leave report.html as well, with all pictures: one page to read, print and hand on
+    #[arg(long)]
+    pub report: bool,
     /// No table and no summary; errors and warnings only
     #[arg(long, short)]
     pub quiet: bool,
@@ -195,6 +206,9 @@ pub struct Check {
     /// Print the rows that `[[checks]]` state, with what they assume
     #[arg(long, conflicts_with = "json")]
     pub rows: bool,
+    /// Print what the file's numbers measure, and what does not agree
+    #[arg(long, conflicts_with_all = ["json", "rows"])]
+    pub units: bool,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 use super::Span;
 use super::operators::{Binary, Comparison, Fold, Unary};
+use crate::units::Unit;
 
 /// One node and where it stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,12 @@ pub struct Ast {
 pub enum AstKind {
     /// A literal number (finite).
     Number(f64),
+    /// `12 kN/m`: a number, the unit, and the unit as it is written.
+    Quantity(f64, Unit, Box<str>),
+    /// `value(fck, "MPa")`: how many of a unit something is.
+    ValueIn(Box<Ast>, Unit),
+    /// `quantity(0.3*x, "MPa")`: as many of a unit as a plain number says.
+    OfUnit(Box<Ast>, Unit),
     /// `"L0"`: text, in conditions only.
     Text(String),
     /// `depth`, `support.Ix`, `from.b`, `pi`: the dotted parts.

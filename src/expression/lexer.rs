@@ -2,11 +2,14 @@
 
 use super::Span;
 use super::SyntaxError;
+use crate::units::{self, Unit};
 
 /// One word of the language.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Word<'a> {
     Number(f64),
+    /// The unit of the number before it.
+    Unit(Unit, &'a str),
     /// A name with its dots: `support.Ix`.
     Name(&'a str),
     /// Text between quotes, without them.
@@ -26,7 +29,8 @@ pub(super) struct Token<'a> {
 const SYMBOLS: [&str; 18] = ["<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
 
 /// Signs other languages use, and what to write instead.
-const FOREIGN: [(&str, &str); 19] = [
+const FOREIGN: [(&str, &str); 20] = [
+    ("°C", "K: temperatures are differences"),
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
@@ -108,12 +112,35 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let length = number_length(rest.as_bytes());
         match rest[..length].parse::<f64>() {
-            Ok(value) if value.is_finite() => self.push(Word::Number(value), length),
+            Ok(value) if value.is_finite() => {
+                self.push(Word::Number(value), length);
+                self.unit();
+            }
             _ => {
                 let message = format!("the number `{}` is too large", &rest[..length]);
                 let span = self.take(length);
                 self.mistakes.push(SyntaxError::new(span, message).help("the largest number is about 1.8e308"));
             }
+        }
+    }
+
+    /// The unit of the number just read, where one follows.
+    fn unit(&mut self) {
+        let rest = self.rest();
+        let blanks = rest.len() - rest.trim_start().len();
+        match units::scan(&rest[blanks..]) {
+            Some(Ok((length, unit))) => {
+                self.at += blanks;
+                self.push(Word::Unit(unit, &rest[blanks..blanks + length]), length);
+            }
+            Some(Err(error)) => {
+                self.at += blanks;
+                let start = self.at;
+                let span = Span { start: start + error.start, end: start + error.end };
+                self.at = span.end;
+                self.mistakes.push(SyntaxError::new(span, error.message).help(error.help));
+            }
+            None => {}
         }
     }
 
@@ -147,7 +174,7 @@ impl<'a> Lexer<'a> {
 
     fn foreign(&mut self, sign: &str, instead: &str) {
         let span = self.take(sign.len());
-        self.mistakes.push(SyntaxError::new(span, format!("`{sign}` is not known here")).help(format!("write `{instead}`")));
+        self.mistakes.push(SyntaxError::new(span, format!("`{sign}` is not known here")).help(said(instead)));
     }
 
     /// A run of characters that mean nothing, as one mistake.
@@ -162,6 +189,14 @@ impl<'a> Lexer<'a> {
         };
         let span = self.take(length);
         self.mistakes.push(SyntaxError::new(span, message).help("names are made of A-Z, a-z, 0-9 and _"));
+    }
+}
+
+/// The remedy for a foreign sign; what follows a colon is a reason.
+fn said(instead: &str) -> String {
+    match instead.split_once(": ") {
+        Some((sign, reason)) => format!("write `{sign}`: {reason}"),
+        None => format!("write `{instead}`"),
     }
 }
 

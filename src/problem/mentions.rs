@@ -32,7 +32,8 @@ struct Found<'a> {
 impl<'a> Found<'a> {
     fn expression(&mut self, ast: &'a Ast) {
         match &ast.kind {
-            AstKind::Number(_) | AstKind::Text(_) => {}
+            AstKind::Number(_) | AstKind::Quantity(..) | AstKind::Text(_) => {}
+            AstKind::ValueIn(inner, _) | AstKind::OfUnit(inner, _) => self.expression(inner),
             AstKind::Name(parts) => self.name(parts, None, ast.span),
             AstKind::Unary(_, operand) => self.expression(operand),
             AstKind::Index(base, index) => match (&base.kind, &index.kind) {

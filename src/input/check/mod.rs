@@ -4,9 +4,12 @@ mod checks;
 mod constants;
 mod constraints;
 mod data;
+mod dimensions;
 mod existence;
 mod items;
 mod links;
+mod listing;
+mod lists;
 mod outlines;
 mod overrides;
 mod profiles;
@@ -33,7 +36,9 @@ use crate::problem::modes;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
 use crate::problem::{Problem, Sense};
+use crate::units::System;
 use data::DataColumns;
+pub use dimensions::{Dimensions, Measured};
 use links::Link;
 
 /// The problem while it is put together. What only reading needs is dropped in the end.
@@ -67,6 +72,18 @@ pub(super) struct Assembly<'a> {
     choice: spread::Choice,
     /// What a table could not give.
     without: Without,
+    /// Variables that take their values from lists.
+    listings: Vec<(u32, listing::Listing)>,
+    /// Catalogues by their names.
+    catalogues: HashMap<String, Option<Arc<lists::Catalogue>>>,
+    /// Sections that are rows of a catalogue.
+    from_catalogues: Vec<(u32, Arc<lists::Catalogue>)>,
+    /// What the file's numbers are in.
+    units: System,
+    /// Whether a number with a unit was met.
+    quantities: bool,
+    /// Columns of tables whose headers have units.
+    columns: Vec<dimensions::MeasuredColumn>,
     /// Whether the text at hand was written by a check: the user cannot do anything about what it hides or states in vain.
     quiet: bool,
 }
@@ -87,13 +104,16 @@ pub(super) fn check(
     findings: Findings,
     arguments: &[String],
     tables: &mut Tables<'_>,
-) -> (Problem, Findings) {
+) -> (Problem, Findings, Dimensions) {
     let mut assembly = Assembly::new(source, findings);
+    assembly.units = tables.units.clone();
+    assembly.quantities = !declared.measured.is_empty();
     let overrides = assembly.overrides(arguments);
     assembly.declare_names(&declared);
     assembly.parameters(&declared, &overrides);
     assembly.variables(&declared.variables);
     assembly.profiles(&declared);
+    assembly.read_catalogues(&declared.catalogues, tables);
     assembly.items(&declared);
     assembly.tables(&declared, tables);
     assembly.finish_items();
@@ -101,9 +121,10 @@ pub(super) fn check(
     if assembly.without.table {
         // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
         assembly.grammar(&declared);
-        return (assembly.problem, assembly.findings);
+        return (assembly.problem, assembly.findings, Dimensions::default());
     }
     assembly.apply(&overrides);
+    assembly.lists();
     assembly.check_variables();
     assembly.finish_structure(&declared);
     assembly.links(&declared.definitions);
@@ -114,13 +135,14 @@ pub(super) fn check(
     assembly.say_unused();
     assembly.say_unused_cases();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
-    assembly.problem.units = std::mem::take(&mut declared.units);
+    let dimensions = if assembly.findings.clean() { assembly.dimensions(&declared) } else { Dimensions::default() };
+    assembly.problem.units = declared.units.into_iter().map(|(key, label)| (key, label.text)).collect();
     assembly.problem.settings = declared.settings.clone();
     if assembly.findings.clean() {
         assembly.problem.prepare();
         modes::follow(&mut assembly.problem);
     }
-    (assembly.problem, assembly.findings)
+    (assembly.problem, assembly.findings, dimensions)
 }
 
 /// The file's stem; of a `problem.toml`, the name of its folder.
@@ -155,6 +177,12 @@ impl<'a> Assembly<'a> {
             building: structure::Building::default(),
             choice: spread::Choice::default(),
             without: Without::default(),
+            listings: Vec::new(),
+            catalogues: HashMap::new(),
+            from_catalogues: Vec::new(),
+            units: System::default(),
+            quantities: false,
+            columns: Vec::new(),
             quiet: false,
         }
     }
@@ -182,6 +210,7 @@ impl<'a> Assembly<'a> {
             parameters: &self.parameters,
             variables: &self.variables,
             definitions: &self.definitions,
+            units: &self.units,
             stage,
             chosen: self.choice.chosen(),
         }

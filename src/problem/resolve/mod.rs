@@ -5,6 +5,7 @@ mod name;
 pub mod outer;
 mod over;
 mod profile;
+mod quantity;
 pub mod response;
 mod world;
 
@@ -62,6 +63,13 @@ impl<'a, 'r> Resolver<'a, 'r> {
     pub fn value(&mut self, ast: &Ast) -> Option<Value> {
         match &ast.kind {
             AstKind::Number(number) => Some(Value::Scalar(Formula::Constant(*number))),
+            AstKind::Quantity(value, unit, written) => {
+                self.say_hidden(written, ast.span);
+                let value = self.own_units(*unit, ast.span, |units| units.own(*value, *unit))?;
+                Some(Value::Scalar(Formula::Constant(value)))
+            }
+            AstKind::ValueIn(inner, unit) => self.measured(inner, *unit, Binary::Divide, ast.span),
+            AstKind::OfUnit(inner, unit) => self.measured(inner, *unit, Binary::Multiply, ast.span),
             AstKind::Text(_) => self.mistake(ast.span, "text is no number", Some("compare it in a `where`".into())),
             AstKind::Name(parts) => self.name(parts, ast.span),
             AstKind::Index(base, index) => self.index(base, index, ast.span),
