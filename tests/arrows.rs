@@ -30,6 +30,8 @@ const LIBRARIES: &[(&str, &[&str])] = &[
     ("argmin", &["backends/argmin"]),
     ("toml", &["input"]),
     ("clap", &["cli"]),
+    ("clap_complete", &["cli"]),
+    ("clap_mangen", &["cli"]),
     ("ctrlc", &["cli"]),
     ("csv", &["input", "log", "report", "mesh"]),
     ("feral", &["linear_algebra"]),

@@ -1,19 +1,26 @@
 //! What can be typed.
 
 mod examples;
+mod values;
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
-use ribopt::problem::settings::BACKENDS;
 
 use super::mesh::Stage;
 use examples::{BEGINNING, EXAMPLES, EXIT_CODES, SECTION_EXAMPLES};
+use values::{backend_names, seconds, tolerance};
+
+/// What `--version` says: the features this program was built with.
+const LONG_VERSION: &str = if cfg!(feature = "nlopt") {
+    concat!(env!("CARGO_PKG_VERSION"), "\nfeatures: nlopt\nbackends: nlopt, argmin")
+} else {
+    concat!(env!("CARGO_PKG_VERSION"), "\nfeatures: none\nbackends: argmin")
+};
 
 /// Sizes structural ribs: the lightest rectangular ribs and H beams that still meet their limits, with a proof.
 #[derive(Debug, Parser)]
-#[command(name = "ribopt", version, max_term_width = 110, after_help = BEGINNING)]
+#[command(name = "ribopt", version, long_version = LONG_VERSION, max_term_width = 110, after_help = BEGINNING)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
@@ -58,6 +65,16 @@ pub enum Command {
     },
     /// JSON Schema of the problem file, for completion in editors
     Schema,
+    /// Completions for a shell, on standard output
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Manual pages, one per command, into a folder
+    Man {
+        /// The folder
+        folder: PathBuf,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -245,21 +262,6 @@ pub struct Analyse {
     pub changes: Changes,
 }
 
-/// The names a backend may have, built in or not.
-fn backend_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(BACKENDS.iter().map(|backend| backend.name))
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "a number is expected, such as 1e-6".to_string())?;
-    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("a tolerance lies between 0 and 1, such as 1e-6".into()) }
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "a number of seconds is expected".to_string())?;
-    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("a number of seconds, 0 or more, is expected".into()) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,21 +278,5 @@ mod tests {
         for name in ribopt::input::examples() {
             assert!(listed(name), "{name}");
         }
-    }
-
-    #[test]
-    fn tolerances_outside_0_to_1_are_refused() {
-        for bad in ["0", "1", "-1e-6", "nan", "inf", "x"] {
-            assert!(tolerance(bad).is_err(), "{bad}");
-        }
-        assert_eq!(tolerance("1e-8"), Ok(1e-8));
-    }
-
-    #[test]
-    fn seconds_are_finite_and_not_negative() {
-        for bad in ["-1", "-0.1", "nan", "inf", ""] {
-            assert!(seconds(bad).is_err(), "{bad}");
-        }
-        assert_eq!((seconds("0.5"), seconds("0")), (Ok(0.5), Ok(0.0)));
     }
 }

@@ -8,6 +8,7 @@ mod compare;
 mod failure;
 mod interrupt;
 mod live_table;
+mod manual;
 mod mesh;
 mod output;
 mod reading;
@@ -52,6 +53,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::New { kind } => reference::example(kind.as_deref()),
         Command::Mesh { stage } => mesh::run(&stage),
         Command::Schema => reference::schema(),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { folder } => manual::pages(&folder),
     }
 }
 
