@@ -47,6 +47,17 @@ pub enum AstKind {
         /// The value of one item.
         body: Box<Ast>,
     },
+    /// `sum(i in 1..N: c[i]*x[i])`: once per whole number of a range.
+    OverRange {
+        /// How the values are joined.
+        fold: Fold,
+        /// The name that stands for the number.
+        index: String,
+        /// The first and the last number.
+        ends: Box<[Ast; 2]>,
+        /// The value at one number.
+        body: Box<Ast>,
+    },
     /// Any other call, by name (`profile(depth, 0.25)`): resolved later.
     Call(String, Vec<Ast>),
 }

@@ -26,7 +26,7 @@ pub(super) struct Token<'a> {
 }
 
 /// Longer ones first, so that `<=` is not read as `<`.
-const SYMBOLS: [&str; 18] = ["<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
+const SYMBOLS: [&str; 19] = ["..", "<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
 
 /// Signs other languages use, and what to write instead.
 const FOREIGN: [(&str, &str); 20] = [
@@ -152,7 +152,7 @@ impl<'a> Lexer<'a> {
         }
         let dot = self.at + length;
         self.push(Word::Name(&rest[..length]), length);
-        if rest[length..].starts_with('.') {
+        if rest[length..].starts_with('.') && !rest[length..].starts_with("..") {
             let span = Span { start: dot, end: dot + 1 };
             self.at = dot + 1;
             self.mistakes.push(SyntaxError::new(span, "expected a name after the dot").help("as in support.Ix"));
@@ -217,7 +217,8 @@ fn begins_number(text: &str) -> bool {
 fn number_length(bytes: &[u8]) -> usize {
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let mut length = digits(0);
-    if bytes.get(length) == Some(&b'.') {
+    // `1..N` is a range.
+    if bytes.get(length) == Some(&b'.') && bytes.get(length + 1) != Some(&b'.') {
         length += 1 + digits(length + 1);
     }
     if let Some(b'e' | b'E') = bytes.get(length) {

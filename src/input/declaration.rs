@@ -164,6 +164,8 @@ pub(super) struct ConstraintEntry {
     pub name: Option<Name>,
     pub place: Place,
     pub repeated: Option<Collection>,
+    /// `for = "i in 1..N"`
+    pub index: Option<Written>,
     pub only: Vec<Written>,
     pub kind: Option<Written>,
     pub filter: Option<Written>,

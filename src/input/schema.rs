@@ -243,7 +243,7 @@ fn constraint() -> Value {
         json!({
             "name": text("Its name in reports."),
             "require": text("a <= b, a >= b, a == b, or lo <= a <= hi with constant lo and hi."),
-            "for": { "enum": ["sections", "ribs", "nodes"], "description": "Once per section, rib or node." },
+            "for": { "type": "string", "pattern": "^(sections|ribs|nodes|.* in .*)$", "description": "Once per section, rib or node, or per number: i in 1..N." },
             "only": { "type": ["array", "string"], "items": { "type": "string" }, "description": "Patterns (* and ?) of names." },
             "kind": { "enum": kinds, "description": "Items of this kind only." },
             "where": text("A comparison of data and parameters that chooses items."),

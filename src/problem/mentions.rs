@@ -50,6 +50,10 @@ impl<'a> Found<'a> {
                 self.expression(right);
             }
             AstKind::Fold(_, list) | AstKind::Call(_, list) => list.iter().for_each(|part| self.expression(part)),
+            AstKind::OverRange { ends, body, .. } => {
+                ends.iter().for_each(|end| self.expression(end));
+                self.expression(body);
+            }
             AstKind::Over { filter, body, .. } => {
                 (self.folds, self.depth) = (true, self.depth + 1);
                 if let Some(filter) = filter {

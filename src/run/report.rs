@@ -53,7 +53,8 @@ fn left(folder: &Path, file: &Path) -> Result<(Left, Vec<PathBuf>), RunError> {
     let pictures: Vec<_> = pictures.filter(|name| name.ends_with(".svg")).filter_map(|name| beside(&name)).collect();
     let tables = TABLES.iter().filter_map(|name| beside(name)).collect();
     let (inputs, unchanged) = inputs(&result);
-    let read = [file.to_path_buf()].into_iter().chain(inputs.iter().map(|(name, _)| name.into())).collect();
+    let shown = TABLES.iter().map(|name| folder.join(name)).chain(pictures.iter().map(|(name, _)| folder.join(name)));
+    let read = inputs.iter().map(|(name, _)| name.into()).chain(shown).chain([file.to_path_buf()]).collect();
     Ok((Left { result, tables, pictures, inputs, unchanged }, read))
 }
 

@@ -3,12 +3,11 @@
 use super::chain::{self, Rank};
 use super::condition::condition;
 use super::cursor::Cursor;
-use super::{Parsed, SyntaxError};
+use super::{Parsed, SyntaxError, quantity, range};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::lexer::Word;
 use crate::expression::operators::{Binary, Fold, Unary};
-use crate::units::Unit;
 
 const SUM: Rank = Rank { join: Binary::Add, take: Binary::Subtract };
 const PRODUCT: Rank = Rank { join: Binary::Multiply, take: Binary::Divide };
@@ -119,8 +118,11 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
     if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
         return over(cursor, fold, collection);
     }
+    if let (Some(fold), Some(Word::Name(index)), Some(Word::Name("in"))) = (fold, cursor.peek(), cursor.ahead(1)) {
+        return range::over(cursor, fold, index);
+    }
     if matches!(name, "value" | "quantity") && cursor.is_before_text() {
-        return measured(cursor, name == "value");
+        return quantity::measured(cursor, name == "value");
     }
     let arguments =
         if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };
@@ -149,26 +151,6 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
         cursor.mistakes.push(error.help("a product is written with `*`"));
     }
     Ok(AstKind::Call(name.to_string(), arguments))
-}
-
-/// `value(x, "MPa")`, `quantity(x, "MPa")`; the parenthesis is read.
-fn measured(cursor: &mut Cursor, value: bool) -> Parsed<AstKind> {
-    let inner = Box::new(cursor.nested(expression)?);
-    cursor.expect(",")?;
-    let (Some(Word::Text(text)), span) = (cursor.peek(), cursor.span()) else {
-        return Err(cursor.unexpected("a unit in quotes"));
-    };
-    cursor.advance();
-    cursor.expect(")")?;
-    match Unit::parse(text) {
-        Ok(unit) if value => Ok(AstKind::ValueIn(inner, unit)),
-        Ok(unit) => Ok(AstKind::OfUnit(inner, unit)),
-        Err(error) => {
-            // The quotation mark comes first.
-            let span = Span { start: span.start + 1 + error.start, end: span.start + 1 + error.end };
-            Err(SyntaxError::new(span, error.message).help(error.help))
-        }
-    }
 }
 
 /// Functions whose arguments may be words: names of cases, ribs, nodes and points, which may hold a hyphen or stand in quotes.

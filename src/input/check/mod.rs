@@ -10,6 +10,7 @@ mod items;
 mod links;
 mod listing;
 mod lists;
+mod objective;
 mod outlines;
 mod overrides;
 mod profiles;
@@ -25,17 +26,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::declaration::{Declaration, Name};
-use super::fields::Scalar;
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use super::table::Tables;
 use crate::expression::ast::Collection;
-use crate::expression::parse::{parse, parse_requirement};
 use crate::geometry::polygon::Ring;
+use crate::problem::Problem;
 use crate::problem::modes;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
-use crate::problem::{Problem, Sense};
 use crate::units::System;
 use data::DataColumns;
 pub use dimensions::{Dimensions, Measured};
@@ -70,6 +69,8 @@ pub(super) struct Assembly<'a> {
     building: structure::Building,
     /// The row that a constraint is being spread over.
     choice: spread::Choice,
+    /// The index of the constraint at hand and its number.
+    index: Option<(String, f64)>,
     /// What a table could not give.
     without: Without,
     /// Variables that take their values from lists.
@@ -176,6 +177,7 @@ impl<'a> Assembly<'a> {
             used: Vec::new(),
             building: structure::Building::default(),
             choice: spread::Choice::default(),
+            index: None,
             without: Without::default(),
             listings: Vec::new(),
             catalogues: HashMap::new(),
@@ -184,21 +186,6 @@ impl<'a> Assembly<'a> {
             quantities: false,
             columns: Vec::new(),
             quiet: false,
-        }
-    }
-
-    /// Mistakes of grammar, without looking up any name.
-    fn grammar(&mut self, declared: &Declaration) {
-        for (_, scalar) in &declared.definitions {
-            if let Scalar::Expression(written) = scalar {
-                self.parsed(written, parse);
-            }
-        }
-        if let Some((_, Some(written))) = &declared.objective {
-            self.parsed(written, parse);
-        }
-        for written in declared.constraints.iter().filter_map(|entry| entry.require.as_ref()) {
-            self.parsed(written, parse_requirement);
         }
     }
 
@@ -212,7 +199,7 @@ impl<'a> Assembly<'a> {
             definitions: &self.definitions,
             units: &self.units,
             stage,
-            chosen: self.choice.chosen(),
+            chosen: self.chosen(),
         }
     }
 
@@ -275,26 +262,5 @@ impl<'a> Assembly<'a> {
             Place::Argument { .. } => "--set".to_owned(),
             Place::Whole => self.source.name.clone(),
         }
-    }
-
-    /// The objective; the volume where there are ribs and nothing is said.
-    fn objective(&mut self, declared: &Declaration) {
-        let (sense, written) = match &declared.objective {
-            Some((sense, Some(written))) => (*sense, written.clone()),
-            Some((_, None)) => return,
-            None if self.problem.ribs.names.is_empty() => {
-                if declared.ribs.is_empty() && declared.rib_table.is_none() {
-                    let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised";
-                    self.findings.mistake(Place::Whole, "there is no objective", help);
-                }
-                return;
-            }
-            None => (Sense::Minimize, Written { text: "volume".into(), place: Place::Whole, inside: None }),
-        };
-        self.problem.sense = sense;
-        let formula = self.scalar(&written, None).unwrap_or_default();
-        self.cells_filled(&formula, None, "the objective");
-        self.problem.objective = formula;
-        self.problem.objective_text = written.text;
     }
 }

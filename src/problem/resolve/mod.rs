@@ -6,6 +6,7 @@ pub mod outer;
 mod over;
 mod profile;
 mod quantity;
+mod range;
 pub mod response;
 mod world;
 
@@ -38,6 +39,8 @@ pub struct Resolver<'a, 'r> {
     outer: Option<(Collection, u32)>,
     /// The collection whose groups make the rows.
     group: Option<Collection>,
+    /// Names that stand for a whole number here, the inner ones last.
+    indices: Vec<(String, f64)>,
     report: &'r mut Report,
 }
 
@@ -45,7 +48,8 @@ impl<'a, 'r> Resolver<'a, 'r> {
     /// A resolver; without a scope only global names hold.
     pub fn new(world: World<'a>, scope: Option<&'r ItemScope>, report: &'r mut Report) -> Self {
         let group = scope.filter(|scope| scope.grouped).map(|scope| scope.collection);
-        Resolver { world, scope, item: world.chosen.item, outer: None, group, report }
+        let indices = world.chosen.index.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+        Resolver { world, scope, item: world.chosen.item, outer: None, group, indices, report }
     }
 
     /// The formula of a number; `None` after a mistake.
@@ -90,6 +94,9 @@ impl<'a, 'r> Resolver<'a, 'r> {
             }
             AstKind::Over { fold, collection, filter, body } => {
                 self.over(*fold, *collection, filter.as_deref(), body, ast.span).map(Value::Scalar)
+            }
+            AstKind::OverRange { fold, index, ends, body } => {
+                self.over_range(*fold, index, ends, body, ast.span).map(Value::Scalar)
             }
             AstKind::Call(name, arguments) if crate::expression::parse::RESPONSES.contains(&name.as_str()) => {
                 self.response(name, arguments, ast.span)

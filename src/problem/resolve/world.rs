@@ -78,6 +78,8 @@ pub struct Chosen<'a> {
     pub sign: f64,
     /// The row's item, where each is resolved by itself.
     pub item: Option<(Collection, u32)>,
+    /// The name and the number of a constraint's index.
+    pub index: Option<(&'a str, f64)>,
 }
 
 /// What responses left open while a formula was resolved: the row has to be spread over it.

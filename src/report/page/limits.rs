@@ -11,8 +11,9 @@ const MOST_LIMITS: usize = 50;
 
 /// Active limits with their price, the costliest first.
 pub(super) fn governing(left: &Left) -> Markup {
-    let lists = [("constraints", "limit"), ("bounds", "bound")];
-    let mut rows: Vec<(f64, Vec<String>)> = lists.iter().flat_map(|(key, _)| left.list(key)).filter_map(row).collect();
+    let values = left.result.get("variables");
+    let limits = ["constraints", "bounds"].into_iter().flat_map(|key| left.list(key));
+    let mut rows: Vec<(f64, Vec<String>)> = limits.filter_map(|entry| row(entry, values)).collect();
     rows.sort_by(|a, b| b.0.total_cmp(&a.0));
     let all = rows.len();
     let rows: Vec<Vec<String>> = rows.into_iter().take(MOST_LIMITS).map(|(_, row)| row).collect();
@@ -26,12 +27,13 @@ pub(super) fn governing(left: &Left) -> Markup {
     }
 }
 
-/// An active limit with a price; `None` for any other.
-fn row(entry: &Value) -> Option<(f64, Vec<String>)> {
+/// An active limit with a price; `None` for any other. A bound is where its variable is.
+fn row(entry: &Value, values: Option<&Value>) -> Option<(f64, Vec<String>)> {
     let text = |key: &str| entry.get(key).and_then(Value::as_str);
     let side = text("active").filter(|side| *side != "none")?;
     let sensitivity = entry.get("sensitivity")?.as_f64().filter(|value| *value != 0.0)?;
-    let at = entry.get(if side == "lower" { "lower" } else { "upper" }).and_then(Value::as_f64);
+    let limit = entry.get(if side == "lower" { "lower" } else { "upper" });
+    let at = limit.or_else(|| values?.get(text("name")?)).and_then(Value::as_f64);
     let per_cent = at.map(|at| sensitivity * at.abs() / 100.0);
     let number = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
     let row = vec![text("name")?.to_owned(), side.to_owned(), number(at), number(Some(sensitivity)), number(per_cent)];

@@ -134,13 +134,15 @@ fn facts(left: &Left) -> Markup {
         .map(|units| units.iter().map(|(key, label)| format!("{key} in {}", label.as_str().unwrap_or_default())).collect())
         .unwrap_or_default();
     let chosen = left.result.get("chosen").and_then(Value::as_object);
+    let length = problem("units").and_then(|units| units.get("length")).and_then(Value::as_str);
+    let cubic = length.map(|length| format!(" {length}³")).unwrap_or_default();
     let changes: Vec<&str> =
         problem("changes").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
     html! {
         dl class="facts" {
             dt { "Problem" } dd { (left.text("/problem/class")) ", " (number(problem("variables"))) " variables, " (number(problem("constraints"))) " limits" }
             @if !units.is_empty() { dt { "Units" } dd { (units.join(", ")) } }
-            @if let Some(volume) = left.result.pointer("/volume/total") { dt { "Volume of the ribs" } dd { (number(Some(volume))) } }
+            @if let Some(volume) = left.result.pointer("/volume/total") { dt { "Volume of the ribs" } dd { (number(Some(volume))) (cubic) } }
             @if left.result.get("mass").is_some_and(Value::is_number) { dt { "Mass of the ribs" } dd { (number(left.result.get("mass"))) } }
             @if !changes.is_empty() { dt { "Changed for this run" } dd { (changes.join(", ")) } }
         }

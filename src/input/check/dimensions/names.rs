@@ -103,6 +103,7 @@ impl Walk<'_, '_> {
     pub fn named(&mut self, parts: &[String], scope: Scope) -> Form {
         let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
         match (scope.holder, &parts[..]) {
+            (_, [name]) if self.indices.iter().any(|index| index == name) => Dimension::NONE.into(),
             (Some(holder), [name]) if scope.itself != Some(name) && self.is_own(holder, name) => match (holder, *name) {
                 (Holder::Sections, name) => self.of_section(None, name),
                 (Holder::Ribs, "length") => Dimension::LENGTH.into(),

@@ -3,7 +3,7 @@
 use super::Holder;
 use super::walk::{Scope, Walk};
 use crate::expression::Span;
-use crate::expression::parse::{parse, parse_condition, parse_requirement};
+use crate::expression::parse::{parse, parse_condition, parse_range, parse_requirement};
 use crate::input::declaration::structure::{LoadEntry, StructureEntries, Vector};
 use crate::input::declaration::{
     ConstraintEntry, Declaration, DimensionEntry, ListEntry, Listing, Name, Numbers, Range, SectionEntry,
@@ -219,11 +219,14 @@ impl Walk<'_, '_> {
         {
             self.condition(&condition, written, scope);
         }
+        let index = entry.index.as_ref().and_then(|written| parse_range(&written.text).ok());
+        self.indices.extend(index.map(|(name, _)| name));
         if let Some(written) = &entry.require
             && let Ok(requirement) = parse_requirement(&written.text)
         {
             self.requirement(&requirement, written, scope);
         }
+        self.indices.clear();
     }
 }
 

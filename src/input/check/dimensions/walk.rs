@@ -33,6 +33,8 @@ pub(super) struct Disagreement {
 pub(super) struct Walk<'a, 's> {
     pub assembly: &'a Assembly<'s>,
     pub inference: Inference,
+    /// Names that stand for whole numbers.
+    pub indices: Vec<String>,
     unknowns: HashMap<String, Form>,
     /// Bare numbers that multiply something: plain ones, unless an equation says otherwise.
     factors: Vec<(Form, Place)>,
@@ -43,9 +45,9 @@ pub(super) struct Walk<'a, 's> {
 
 impl<'a, 's> Walk<'a, 's> {
     pub fn new(assembly: &'a Assembly<'s>) -> Self {
-        let inference = Inference::default();
+        let (inference, indices) = (Inference::default(), Vec::new());
         let (factors, odd_factors, disagreements) = (Vec::new(), Vec::new(), Vec::new());
-        Walk { assembly, inference, unknowns: HashMap::new(), factors, odd_factors, disagreements }
+        Walk { assembly, inference, indices, unknowns: HashMap::new(), factors, odd_factors, disagreements }
     }
 
     /// What cannot be, and what is doubtful.
@@ -177,6 +179,13 @@ impl<'a, 's> Walk<'a, 's> {
                     self.same(written, ast.span, [(&list[0], &forms[0]), (part, form)], "joined");
                 }
                 forms.into_iter().next().unwrap_or_else(plain)
+            }
+            AstKind::OverRange { index, ends, body, .. } => {
+                ends.iter().for_each(|end| drop(self.expression(end, written, scope)));
+                self.indices.push(index.clone());
+                let form = self.expression(body, written, scope);
+                self.indices.pop();
+                form
             }
             AstKind::Over { collection, filter, body, .. } => {
                 let inner = Scope { holder: Some((*collection).into()), itself: None };
