@@ -153,8 +153,9 @@ fn a_search_that_has_no_time_keeps_the_best_so_far_and_says_how_far_it_is() {
     let mut subject = support::read(std::path::Path::new("problems/vanderplaats-grid.toml"));
     subject.settings.max_seconds = 0.5;
     let outcome = outcome(&subject).unwrap_or_else(|error| panic!("{error}"));
-    let objective = outcome.objective.expect("a design");
-    assert!(objective >= 69_250.0 - 1e-6, "{objective}");
+    let objective = outcome.objective.expect("a point");
+    // Sizes between rows are below; they are never called an answer.
+    assert!(objective >= 69_250.0 - 1e-6 || outcome.message.contains("between rows"), "{objective}: {}", outcome.message);
     match outcome.status {
         // Half a second may do on a fast machine.
         Status::Certified => assert!((objective - 69_250.0).abs() < 1e-3),

@@ -3,6 +3,9 @@
 //!
 //! A size in logarithms is rounded as every number is: what is proved holds for sizes up to their last digit.
 
+use std::sync::Arc;
+
+use super::hull::Facet;
 use super::{Bounded, Design, List, Range, Relaxation, Relaxed, Rest};
 use crate::certificate::{Certifier, contradiction, lower_bound};
 use crate::model::views::{Elastic, WithBounds};
@@ -19,6 +22,20 @@ pub struct Convex<'a> {
     pub relaxed: &'a dyn Model,
     /// The variables in which it is convex, where these are not its own.
     pub substitution: Option<&'a dyn Substitution>,
+    /// What the relaxed problem says of catalogues: within ranges these rows hold more closely.
+    pub facets: Vec<FacetRow>,
+}
+
+/// A row of the convex model that is a facet of a list's rows.
+pub struct FacetRow {
+    /// The list.
+    pub list: usize,
+    /// The row's number.
+    pub row: usize,
+    /// The facet.
+    pub facet: Facet,
+    /// The list's rows in the numbers in which they have this facet: logarithms, or their own.
+    pub points: Arc<Vec<Vec<f64>>>,
 }
 
 impl Convex<'_> {
@@ -48,7 +65,12 @@ impl Convex<'_> {
                 (lower[j], upper[j]) = (lower[j].max(low), upper[j].min(high));
             }
         }
-        WithBounds::new(self.model(), self.inward(&lower), self.inward(&upper))
+        let mut inside = WithBounds::new(self.model(), self.inward(&lower), self.inward(&upper));
+        for FacetRow { list, row, facet, points } in &self.facets {
+            let range = ranges[*list];
+            inside.limit(*row, facet.reach(points[range.first..=range.last].iter()));
+        }
+        inside
     }
 
     /// The best rigorous bound that multipliers at `z` give, in the user's objective.

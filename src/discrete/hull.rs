@@ -12,6 +12,17 @@ pub struct Facet {
     pub c: f64,
 }
 
+impl Facet {
+    /// The least c that the rows of a range meet, rounded outwards.
+    pub fn reach<'r>(&self, rows: impl Iterator<Item = &'r Vec<f64>>) -> f64 {
+        let one = |row: &Vec<f64>| {
+            let (u, v) = (self.a * row[self.first], self.b * row[self.second]);
+            u + v + 64.0 * f64::EPSILON * (u.abs() + v.abs())
+        };
+        rows.map(one).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
 /// Beyond so many columns pairs would be too many.
 const MOST_COLUMNS: usize = 8;
 
@@ -41,10 +52,8 @@ fn of_pair(rows: &[Vec<f64>], first: usize, second: usize) -> Vec<Facet> {
         let (a, b) = (to[1] - from[1], from[0] - to[0]);
         let size = a.abs().max(b.abs());
         let (a, b) = (a / size, b / size);
-        let reach = |point: &[f64; 2]| a * point[0] + b * point[1];
-        let rounding = |point: &[f64; 2]| 4.0 * f64::EPSILON * ((a * point[0]).abs() + (b * point[1]).abs());
-        let c = points.iter().map(|point| reach(point) + rounding(point)).fold(f64::NEG_INFINITY, f64::max);
-        Facet { first, second, a, b, c }
+        let facet = Facet { first, second, a, b, c: f64::INFINITY };
+        Facet { c: facet.reach(rows.iter()), ..facet }
     };
     edges.map(facet).collect()
 }

@@ -122,6 +122,6 @@ mod tests {
         assert_eq!(list.rows, [vec![1.0, 2.0], vec![3.0, 1.0], vec![4.0, 4.0]]);
         assert_eq!(list.extent(list.whole(), 0), (1.0, 4.0));
         assert_eq!(list.nearest(list.whole(), &[1.1, 2.9]), 1);
-        assert_eq!(list.above(list.whole(), &[2.0, 1.0]), 2);
+        assert_eq!([list.above(list.whole(), &[2.0, 1.0]), list.above(list.whole(), &[1.5, 3.5])], [0, 2]);
     }
 }

@@ -19,11 +19,11 @@ pub enum AstKind {
     /// A literal number (finite).
     Number(f64),
     /// `12 kN/m`: a number, the unit, and the unit as it is written.
-    Quantity(f64, Unit, Box<str>),
+    Quantity(f64, Box<Unit>, Box<str>),
     /// `value(fck, "MPa")`: how many of a unit something is.
-    ValueIn(Box<Ast>, Unit),
+    ValueIn(Box<Ast>, Box<Unit>),
     /// `quantity(0.3*x, "MPa")`: as many of a unit as a plain number says.
-    OfUnit(Box<Ast>, Unit),
+    OfUnit(Box<Ast>, Box<Unit>),
     /// `"L0"`: text, in conditions only.
     Text(String),
     /// `depth`, `support.Ix`, `from.b`, `pi`: the dotted parts.

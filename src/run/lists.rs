@@ -1,14 +1,16 @@
 //! Sizes from lists: after the optimum with all sizes free, the best choice of rows, and what is proved of it.
 
+use std::collections::HashMap;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::Subject;
 use super::bounded::below_every_design;
 use super::remaining::Remaining;
-use crate::certificate::Extent;
+use crate::certificate::{Extent, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
-use crate::discrete::convex::Convex;
+use crate::discrete::convex::{Convex, FacetRow};
 use crate::discrete::hull::{Facet, facets};
 use crate::discrete::{Found, Limits, List, Rest, exchange, search};
 use crate::expression::operators::Binary;
@@ -18,6 +20,9 @@ use crate::report::number::{percent, significant};
 
 /// A design no further above the bound than this, relative, is the best: what backends may differ by and still agree.
 const AGREEMENT: f64 = 1e-6;
+
+/// A row's limit is a facet's own number, up to the rounding of a way into logarithms and back.
+const SAME: f64 = 1e-9;
 
 /// Share of the time left that the search may take: the rest is for the run with the sizes chosen.
 const SHARE: f64 = 0.9;
@@ -46,7 +51,7 @@ pub(super) fn choose(
         return None;
     }
     let lists: Vec<List> = listed.iter().map(list).collect();
-    let left = remaining.settings(settings)?.max_seconds;
+    let Some(left) = remaining.settings(settings).map(|settings| settings.max_seconds) else { return Some(no_time(free)) };
     // A year is as good as no limit.
     let deadline = Instant::now() + Duration::from_secs_f64((SHARE * left).min(3e7));
     let limits = Limits { deadline: Some(deadline), interrupt };
@@ -64,7 +69,8 @@ pub(super) fn choose(
     }
     let chosen = subject.with_problem(problem).ok()?;
     let own = chosen.shown().meta().variables();
-    let mut outcome = again(&chosen, &best.x[..own.min(best.x.len())])?;
+    let x = &best.x[..own.min(best.x.len())];
+    let mut outcome = again(&chosen, x).unwrap_or_else(|| as_found(&chosen, x, free));
     judge(subject, &mut outcome, free, &found, &limits);
     let named = listed.iter().zip(lists.iter().zip(&best.rows));
     let named =
@@ -88,8 +94,9 @@ fn find(subject: &Subject, settings: &Settings, lists: &[List], x: &[f64], limit
     match &relaxed {
         Some(relaxed) => {
             let model = relaxed.model.judge();
+            let facets = facet_rows(subject, relaxed, lists);
             let substitution = relaxed.substitution.as_deref().map(|other| other as &dyn Substitution);
-            search(&Convex { rest, relaxed: model, substitution }, lists, first, &start, &limits)
+            search(&Convex { rest, relaxed: model, substitution, facets }, lists, first, &start, &limits)
         }
         None => {
             let nothing = f64::NEG_INFINITY;
@@ -108,11 +115,44 @@ fn relaxed(subject: &Subject) -> Option<Formulation> {
     formulate(problem).ok().filter(|relaxed| relaxed.class.is_global())
 }
 
-/// Adds the facets of a catalogue: of geometric programs in the logarithms of its numbers, where they are monomials.
-fn add_facets(problem: &mut Problem, listed: &Listed, geometric: bool) {
+/// The numbers in which a catalogue's rows have facets: of geometric programs their logarithms, where facets are monomials.
+fn points(rows: &[Vec<f64>], geometric: bool) -> Vec<Vec<f64>> {
     let number = |value: &f64| if geometric { value.ln() } else { *value };
-    let rows: Vec<Vec<f64>> = listed.rows.iter().map(|row| row.iter().map(number).collect()).collect();
-    for (at, facet) in facets(&rows).into_iter().enumerate() {
+    rows.iter().map(|row| row.iter().map(number).collect()).collect()
+}
+
+/// What the row of a facet is called.
+fn facet_name(listed: &Listed, at: usize) -> String {
+    format!("hull of {} #{at}", listed.name)
+}
+
+/// The rows of the convex model that are facets, each by its name; those whose limits are in other numbers stay as they are.
+fn facet_rows(subject: &Subject, relaxed: &Formulation, lists: &[List]) -> Vec<FacetRow> {
+    let geometric = subject.class() == Class::GeometricProgram;
+    let own = relaxed.model.judge();
+    let model = relaxed.substitution.as_deref().map_or(own, |other| other.model());
+    let numbers: HashMap<String, usize> = (0..own.meta().rows()).map(|i| (own.row_name(i), i)).collect();
+    let mut found = Vec::new();
+    for (list, (listed, sorted)) in subject.problem().listed.iter().zip(lists).enumerate() {
+        if listed.variables.len() < 2 {
+            continue;
+        }
+        let facets = facets(&points(&listed.rows, geometric));
+        let points = Arc::new(points(&sorted.rows, geometric));
+        for (at, facet) in facets.into_iter().enumerate() {
+            let Some(&row) = numbers.get(&facet_name(listed, at)) else { continue };
+            let limit = model.meta().row_upper[row];
+            if (limit - facet.c).abs() <= SAME * (1.0 + facet.c.abs()) {
+                found.push(FacetRow { list, row, facet, points: Arc::clone(&points) });
+            }
+        }
+    }
+    found
+}
+
+/// Adds the facets of a catalogue.
+fn add_facets(problem: &mut Problem, listed: &Listed, geometric: bool) {
+    for (at, facet) in facets(&points(&listed.rows, geometric)).into_iter().enumerate() {
         let Facet { first, second, a, b, c } = facet;
         let [u, v] = [first, second].map(|k| Box::new(Formula::Variable(listed.variables[k])));
         let times = |op, left: Box<Formula>, number| Box::new(Formula::Binary(op, left, Box::new(Formula::Constant(number))));
@@ -124,8 +164,7 @@ fn add_facets(problem: &mut Problem, listed: &Listed, geometric: bool) {
             ),
             false => (Formula::Binary(Binary::Add, times(Binary::Multiply, u, a), times(Binary::Multiply, v, b)), c),
         };
-        let name = format!("hull of {} #{at}", listed.name);
-        let right = Limit::AtMost(Formula::Constant(limit));
+        let (name, right) = (facet_name(listed, at), Limit::AtMost(Formula::Constant(limit)));
         let (place, text, detail) = (String::new(), String::new(), Box::default());
         problem.constraints.push(Constraint { name, detail, place, text, scope: Scope::Once, left, right });
     }
@@ -183,6 +222,36 @@ fn ended(limits: &Limits<'_>) -> Status {
         false if limits.are_over() => Status::LimitReached,
         false => Status::Uncertified,
     }
+}
+
+/// A design as the search found it, where no time is left for the backends to solve the problem with its sizes.
+fn as_found(chosen: &Subject, x: &[f64], free: &Outcome) -> Outcome {
+    let Settings { optimality_tolerance: optimality, constraint_tolerance: constraint, .. } = chosen.settings;
+    let certificate = certify(chosen.shown(), chosen.class(), x, None, Tolerances { optimality, constraint }).ok();
+    let certified = certificate.as_ref().is_some_and(|certificate| certificate.certified);
+    Outcome {
+        status: if certified { Status::Certified } else { Status::LimitReached },
+        objective: certificate.as_ref().map(|certificate| certificate.objective),
+        message: "Time ended before the backends could solve the problem with these sizes.".into(),
+        x: x.to_vec(),
+        certificate,
+        best: None,
+        agreement: None,
+        lower_bound: None,
+        ..free.clone()
+    }
+}
+
+/// Sizes between rows are no answer, whatever was proved of them.
+fn no_time(free: &Outcome) -> Chosen {
+    let outcome = Outcome {
+        status: Status::LimitReached,
+        message: "Time ended before sizes were chosen from the lists. The point shown has its sizes between rows.".into(),
+        remedy: Some("raise --max-seconds".into()),
+        scope: Extent::Local,
+        ..free.clone()
+    };
+    Chosen { rows: Vec::new(), outcome, subject: None }
 }
 
 /// No choice meets the limits, or none was found.

@@ -102,21 +102,8 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let (choices, interrupt) = (request.choices.as_slice(), request.interrupt);
-    let among = Among { choices, settings: &subject.settings, remaining: &remaining, interrupt };
-    let judged = looked_at_anew(subject, &mut outcome, &among);
-    let chosen = sizes_from_lists(subject, &mut outcome, &among);
-    let judged = match chosen {
-        Some(chosen) => {
-            about.chosen = chosen.rows;
-            chosen.subject
-        }
-        None => {
-            bound_below(subject, &mut outcome, &remaining, request.interrupt);
-            strongest::explain(subject, &mut outcome, &remaining);
-            judged
-        }
-    };
+    let among = Among::of(request, subject, &remaining);
+    let judged = settled(subject, &mut outcome, &mut about, &among);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
@@ -175,11 +162,7 @@ pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) ->
     refuse_if_none_accepts(choices, &task)?;
     let mut outcome = present(subject, unobserved(&task, choices));
     let among = Among { choices, settings, remaining: &remaining, interrupt: None };
-    looked_at_anew(subject, &mut outcome, &among);
-    if sizes_from_lists(subject, &mut outcome, &among).is_none() {
-        bound_below(subject, &mut outcome, &remaining, None);
-        strongest::explain(subject, &mut outcome, &remaining);
-    }
+    settled(subject, &mut outcome, &mut About::default(), &among);
     Ok(outcome)
 }
 
@@ -191,7 +174,11 @@ struct Among<'a> {
     interrupt: Option<&'a AtomicBool>,
 }
 
-impl Among<'_> {
+impl<'a> Among<'a> {
+    fn of(request: &'a Request<'_>, subject: &'a Subject, remaining: &'a Remaining) -> Among<'a> {
+        Among { choices: &request.choices, settings: &subject.settings, remaining, interrupt: request.interrupt }
+    }
+
     /// One start of every backend from a point of the user's variables; `None` where no time is left for it.
     fn nearby(&self, subject: &Subject, x: &[f64]) -> Option<Outcome> {
         let settings = self.remaining.settings(self.settings)?;
@@ -199,6 +186,18 @@ impl Among<'_> {
         let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
         Some(present(subject, unobserved(&task, self.choices)))
     }
+}
+
+/// What follows the cross-checked run: structures looked at anew, sizes chosen from lists, bounds; the problem the outcome is of then.
+fn settled(subject: &Subject, outcome: &mut Outcome, about: &mut About, among: &Among<'_>) -> Option<Subject> {
+    let judged = looked_at_anew(subject, outcome, among);
+    if let Some(chosen) = sizes_from_lists(subject, outcome, among) {
+        about.chosen = chosen.rows;
+        return chosen.subject;
+    }
+    bound_below(subject, outcome, among.remaining, among.interrupt);
+    strongest::explain(subject, outcome, among.remaining);
+    judged
 }
 
 /// The best choice from the file's lists, in the place of the outcome with free sizes; `None` where there are no lists.

@@ -73,7 +73,7 @@ fn atom(cursor: &mut Cursor) -> Parsed<Ast> {
             match cursor.peek() {
                 Some(Word::Unit(unit, text)) => {
                     cursor.advance();
-                    AstKind::Quantity(value, unit, text.into())
+                    AstKind::Quantity(value, Box::new(unit), text.into())
                 }
                 _ => AstKind::Number(value),
             }

@@ -18,8 +18,8 @@ pub(super) fn measured(cursor: &mut Cursor, value: bool) -> Parsed<AstKind> {
     cursor.advance();
     cursor.expect(")")?;
     match Unit::parse(text) {
-        Ok(unit) if value => Ok(AstKind::ValueIn(inner, unit)),
-        Ok(unit) => Ok(AstKind::OfUnit(inner, unit)),
+        Ok(unit) if value => Ok(AstKind::ValueIn(inner, Box::new(unit))),
+        Ok(unit) => Ok(AstKind::OfUnit(inner, Box::new(unit))),
         Err(error) => {
             // The quotation mark comes first.
             let span = Span { start: span.start + 1 + error.start, end: span.start + 1 + error.end };

@@ -47,11 +47,12 @@ impl Assembly<'_> {
         let Some(numbers) = self.resolved(written, None, Stage::Constants, |resolver| resolver.range(&ends, span)) else {
             return;
         };
+        let before = self.findings.mistakes();
         for number in numbers {
             self.index = Some((index.clone(), number as f64));
             self.rows_of(entry, format!("{name}[{number}]"));
             // What is wrong with one row is wrong with all.
-            if !self.findings.clean() {
+            if self.findings.mistakes() > before {
                 break;
             }
         }

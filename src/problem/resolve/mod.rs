@@ -69,11 +69,11 @@ impl<'a, 'r> Resolver<'a, 'r> {
             AstKind::Number(number) => Some(Value::Scalar(Formula::Constant(*number))),
             AstKind::Quantity(value, unit, written) => {
                 self.say_hidden(written, ast.span);
-                let value = self.own_units(*unit, ast.span, |units| units.own(*value, *unit))?;
+                let value = self.own_units(**unit, ast.span, |units| units.own(*value, **unit))?;
                 Some(Value::Scalar(Formula::Constant(value)))
             }
-            AstKind::ValueIn(inner, unit) => self.measured(inner, *unit, Binary::Divide, ast.span),
-            AstKind::OfUnit(inner, unit) => self.measured(inner, *unit, Binary::Multiply, ast.span),
+            AstKind::ValueIn(inner, unit) => self.measured(inner, **unit, Binary::Divide, ast.span),
+            AstKind::OfUnit(inner, unit) => self.measured(inner, **unit, Binary::Multiply, ast.span),
             AstKind::Text(_) => self.mistake(ast.span, "text is no number", Some("compare it in a `where`".into())),
             AstKind::Name(parts) => self.name(parts, ast.span),
             AstKind::Index(base, index) => self.index(base, index, ast.span),

@@ -59,11 +59,14 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>], file: &str) -> Markup
     }
 }
 
+/// A section, its kind, and its numbers by name.
+type Section<'t> = (&'t str, &'t str, Vec<(&'t str, &'t str)>);
+
 /// Dimensions and properties, a row per section.
 pub(super) fn sizes(left: &Left) -> Markup {
     let Some(sizes) = left.table("sizes.csv") else { return html! {} };
     let mut names: Vec<&str> = Vec::new();
-    let mut sections: Vec<(&str, &str, Vec<(&str, &str)>)> = Vec::new();
+    let mut sections: Vec<Section> = Vec::new();
     for row in &sizes.rows {
         let [section, kind, name, value] = ["section", "kind", "name", "value"].map(|column| sizes.cell(row, column));
         if !names.contains(&name) {
