@@ -55,7 +55,7 @@ fn random(seed: u64) -> Random {
             rows(&[format!("x + {c}*y + z >= 4"), format!("z <= {d}")]),
             least(&x, &y, |x, y| {
                 let z = (4.0 - x - c * y).max(0.1);
-                (z <= d).then(|| a * x + b * y + z)
+                (z <= d).then_some(a * x + b * y + z)
             }),
         ),
         // A convex program.
