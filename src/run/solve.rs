@@ -14,9 +14,10 @@ use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
+use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, strongest, structure_files, utilisation, vanished};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
+use crate::problem::Settings;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
 
@@ -101,9 +102,8 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         ..subject.task(&start, request.interrupt)
     };
     let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let judged = looked_at_anew(subject, &mut outcome, &request.choices, &remaining, request.interrupt);
-    bound_below(subject, &mut outcome, &remaining, request.interrupt);
-    strongest::explain(subject, &mut outcome, &remaining);
+    let among = Among::of(request, subject, &remaining);
+    let judged = settled(subject, &mut outcome, &mut about, &among);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
@@ -149,43 +149,71 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
 /// # Errors
 /// No backend takes the problem.
 pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
+    outcome_by(subject, &choose(&[], None, &subject.settings)?, &subject.settings)
+}
+
+/// The same by these backends and algorithms, with other tolerances and limits.
+///
+/// # Errors
+/// None of them takes the problem.
+pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) -> Result<Outcome, RunError> {
     let remaining = Remaining::new();
-    let choices = choose(&[], None, &subject.settings)?;
-    let task = subject.task(&subject.model().meta().start, None);
-    refuse_if_none_accepts(&choices, &task)?;
-    let mut outcome = present(subject, unobserved(&task, &choices));
-    looked_at_anew(subject, &mut outcome, &choices, &remaining, None);
-    bound_below(subject, &mut outcome, &remaining, None);
-    strongest::explain(subject, &mut outcome, &remaining);
+    let task = Task { settings, ..subject.task(&subject.model().meta().start, None) };
+    refuse_if_none_accepts(choices, &task)?;
+    let mut outcome = present(subject, unobserved(&task, choices));
+    let among = Among { choices, settings, remaining: &remaining, interrupt: None };
+    settled(subject, &mut outcome, &mut About::default(), &among);
     Ok(outcome)
 }
 
+/// What further runs of a command go by.
+struct Among<'a> {
+    choices: &'a [Choice],
+    settings: &'a Settings,
+    remaining: &'a Remaining,
+    interrupt: Option<&'a AtomicBool>,
+}
+
+impl<'a> Among<'a> {
+    fn of(request: &'a Request<'_>, subject: &'a Subject, remaining: &'a Remaining) -> Among<'a> {
+        Among { choices: &request.choices, settings: &subject.settings, remaining, interrupt: request.interrupt }
+    }
+
+    /// One start of every backend from a point of the user's variables; `None` where no time is left for it.
+    fn nearby(&self, subject: &Subject, x: &[f64]) -> Option<Outcome> {
+        let settings = self.remaining.settings(self.settings)?;
+        let start = subject.completed(x.to_vec());
+        let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
+        Some(present(subject, unobserved(&task, self.choices)))
+    }
+}
+
+/// What follows the cross-checked run: structures looked at anew, sizes chosen from lists, bounds; the problem the outcome is of then.
+fn settled(subject: &Subject, outcome: &mut Outcome, about: &mut About, among: &Among<'_>) -> Option<Subject> {
+    let judged = looked_at_anew(subject, outcome, among);
+    if let Some(chosen) = sizes_from_lists(subject, outcome, among) {
+        about.chosen = chosen.rows;
+        return chosen.subject;
+    }
+    bound_below(subject, outcome, among.remaining, among.interrupt);
+    strongest::explain(subject, outcome, among.remaining);
+    judged
+}
+
+/// The best choice from the file's lists, in the place of the outcome with free sizes; `None` where there are no lists.
+fn sizes_from_lists(subject: &Subject, outcome: &mut Outcome, among: &Among<'_>) -> Option<lists::Chosen> {
+    let again = |rest: &Subject, x: &[f64]| among.nearby(rest, x);
+    let chosen = lists::choose(subject, among.settings, outcome, again, among.remaining, among.interrupt)?;
+    *outcome = chosen.outcome.clone();
+    Some(chosen)
+}
+
 /// Judges an outcome anew where modes coincide or bars have vanished: the problem it is then an outcome of.
-fn looked_at_anew(
-    subject: &Subject,
-    outcome: &mut Outcome,
-    choices: &[Choice],
-    remaining: &Remaining,
-    interrupt: Option<&AtomicBool>,
-) -> Option<Subject> {
-    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, remaining, interrupt);
+fn looked_at_anew(subject: &Subject, outcome: &mut Outcome, among: &Among<'_>) -> Option<Subject> {
+    let again = |rest: &Subject, x: &[f64]| among.nearby(rest, x);
     let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
     *outcome = settled.outcome;
     Some(settled.subject)
-}
-
-/// One start of every backend from a point of the user's variables; `None` where no time is left for it.
-fn nearby(
-    subject: &Subject,
-    x: &[f64],
-    choices: &[Choice],
-    remaining: &Remaining,
-    interrupt: Option<&AtomicBool>,
-) -> Option<Outcome> {
-    let settings = remaining.settings(&subject.settings)?;
-    let start = subject.completed(x.to_vec());
-    let task = Task { settings: &settings, ..subject.task(&start, interrupt) };
-    Some(present(subject, unobserved(&task, choices)))
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

@@ -79,6 +79,9 @@ pub fn read(path: &Path) -> Subject {
 
 /// One cross-checked run from the file's start.
 pub fn solve(subject: &Subject, choices: &[Choice], settings: &Settings) -> Outcome {
+    if !subject.problem().listed.is_empty() {
+        return ribopt::run::solve::outcome_by(subject, choices, settings).unwrap_or_else(|error| panic!("{error}"));
+    }
     let task = Task {
         model: subject.model(),
         substitution: subject.substitution(),
