@@ -40,6 +40,14 @@ struct Solved<'m> {
     modes: &'m Modes,
     z: Vec<f64>,
     spectra: Vec<(Pencil, Spectrum)>,
+    /// What cuts of one cluster share, by the first of them asked about.
+    systems: Vec<(usize, Arc<System>)>,
+}
+
+/// S, and the system over it that says what cuts through one basis see.
+struct System {
+    s: Symmetric,
+    bordered: Bordered,
 }
 
 /// A value and its derivatives along design and displacements.
@@ -78,7 +86,7 @@ impl Modes {
     }
 
     fn at<'m>(&'m self, z: &[f64]) -> Solved<'m> {
-        Solved { modes: self, z: z.to_vec(), spectra: Vec::new() }
+        Solved { modes: self, z: z.to_vec(), spectra: Vec::new(), systems: Vec::new() }
     }
 
     /// All μ and φ of a pencil at design and displacements.
@@ -152,29 +160,35 @@ impl Solved<'_> {
                 Ok(if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER })
             }
             Eigenvalue::Cut(cut) => {
+                let system = self.system(cut as usize)?;
                 let cut = &modes.cuts[cut as usize];
-                let (w, s, _) = self.seen(cut)?;
-                let remaining: f64 = w.iter().zip(s.times(&w)).map(|(a, b)| a * b).sum();
-                Ok(shown(cut, remaining))
+                let w = system.bordered.stationary(&cut.direction);
+                Ok(shown(cut, dot(&w, &system.s.times(&w))))
             }
         };
         modes.wanted.iter().map(value).collect()
     }
 
-    /// What a cut sees: w, S, and the system they come from.
-    fn seen(&self, cut: &Cut) -> Result<(Vec<f64>, Symmetric, Bordered), EvaluationError> {
-        let energies = &self.modes.energies;
+    /// What a cut is seen through.
+    fn system(&mut self, at: usize) -> Result<Arc<System>, EvaluationError> {
+        let (energies, cuts) = (&self.modes.energies, &self.modes.cuts);
+        let cut = &cuts[at];
+        let alike = |other: &Cut| Arc::ptr_eq(&other.basis, &cut.basis) && (other.pencil, other.limit) == (cut.pencil, cut.limit);
+        if let Some((_, system)) = self.systems.iter().find(|(other, _)| alike(&cuts[*other])) {
+            return Ok(Arc::clone(system));
+        }
         let s = energies.matrix(&self.z, cut.pencil, 1.0, -1.0 / cut.pencil.inverse(cut.limit))?;
         let k = energies.matrix(&self.z, cut.pencil, 1.0, 0.0)?;
-        let bordered = Bordered::new(&s, &cut.basis, &k);
-        Ok((bordered.stationary(&cut.direction), s, bordered))
+        let system = Arc::new(System { bordered: Bordered::new(&s, &cut.basis, &k), s });
+        self.systems.push((at, Arc::clone(&system)));
+        Ok(system)
     }
 
     /// The first derivatives of a value, and the second where they are asked for.
     fn smooth(&mut self, one: Eigenvalue, curved: bool) -> Result<Smooth, EvaluationError> {
         match one {
             Eigenvalue::Number(pencil, number) => self.of_number(pencil, number as usize - 1, curved),
-            Eigenvalue::Cut(cut) => self.of_cut(&self.modes.cuts[cut as usize], curved),
+            Eigenvalue::Cut(cut) => self.of_cut(cut as usize, curved),
         }
     }
 
@@ -214,9 +228,11 @@ impl Solved<'_> {
         Ok(chained(slope, curvature, &active, first, second))
     }
 
-    fn of_cut(&self, cut: &Cut, curved: bool) -> Result<Smooth, EvaluationError> {
-        let energies = &self.modes.energies;
-        let (w, s, bordered) = self.seen(cut)?;
+    fn of_cut(&mut self, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
+        let system = self.system(at)?;
+        let System { s, bordered } = system.as_ref();
+        let (energies, cut) = (&self.modes.energies, &self.modes.cuts[at]);
+        let w = bordered.stationary(&cut.direction);
         let limit = cut.pencil.inverse(cut.limit);
         let remaining: f64 = dot(&w, &s.times(&w));
         // m = limit·(1 − b) is μ to first order.
