@@ -23,8 +23,8 @@ pub struct Lowest {
 /// Eigenvalues listed per case.
 const LISTED: usize = 3;
 
-/// More members than this are not looked at again unasked: matrices of modes are dense.
-const MOST_MEMBERS: usize = 200;
+/// More members than this are not looked at again unasked: it takes three times as long as the analysis itself.
+const MOST_MEMBERS: usize = 1000;
 
 /// Structures of so many members have their eigenvalues told unasked.
 const FEW_MEMBERS: usize = 40;
@@ -104,6 +104,6 @@ fn solved(problem: &Problem, pencil: Pencil, x: &[f64]) -> Result<Vec<f64>, Eval
     let failed = |cause: String| EvaluationError::Invalid { term: "modes of the structure".into(), cause };
     let lifted = Lifted::of(&Arc::new(asked)).map_err(|error| failed(error.to_string()))?;
     let model = Reduced::of(lifted, false).ok_or_else(|| failed("there are no states".into()))?;
-    let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil)?;
+    let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil, LISTED)?;
     Ok(spectrum.values.iter().filter(|mu| **mu > 0.0).take(LISTED).map(|&mu| pencil.shown(mu)).collect())
 }

@@ -13,10 +13,11 @@ use super::present::present;
 use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
-use super::unobserved::unobserved;
+use super::unobserved::{by_interior_point, unobserved};
 use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
+use crate::problem::Settings;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
 
@@ -100,8 +101,8 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         ..subject.task(&start, request.interrupt)
     };
-    let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let judged = looked_at_anew(subject, &mut outcome, &request.choices, &remaining, request.interrupt);
+    let means = Means { choices: &request.choices, remaining: &remaining, interrupt: request.interrupt };
+    let (mut outcome, judged) = means.settled(subject, &task, |task| records.watch(task, &request.choices, watcher));
     bound_below(subject, &mut outcome, &remaining, request.interrupt);
     strongest::explain(subject, &mut outcome, &remaining);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
@@ -149,43 +150,75 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
 /// # Errors
 /// No backend takes the problem.
 pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
+    outcome_by(subject, &choose(&[], None, &subject.settings)?, &subject.settings)
+}
+
+/// The same by these backends, with other settings than the file's.
+///
+/// # Errors
+/// No backend takes the problem.
+pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) -> Result<Outcome, RunError> {
     let remaining = Remaining::new();
-    let choices = choose(&[], None, &subject.settings)?;
-    let task = subject.task(&subject.model().meta().start, None);
-    refuse_if_none_accepts(&choices, &task)?;
-    let mut outcome = present(subject, unobserved(&task, &choices));
-    looked_at_anew(subject, &mut outcome, &choices, &remaining, None);
+    let task = Task { settings, ..subject.task(&subject.model().meta().start, None) };
+    refuse_if_none_accepts(choices, &task)?;
+    let means = Means { choices, remaining: &remaining, interrupt: None };
+    let (mut outcome, _) = means.settled(subject, &task, |task| unobserved(task, choices));
     bound_below(subject, &mut outcome, &remaining, None);
     strongest::explain(subject, &mut outcome, &remaining);
     Ok(outcome)
 }
 
-/// Judges an outcome anew where modes coincide or bars have vanished: the problem it is then an outcome of.
-fn looked_at_anew(
-    subject: &Subject,
-    outcome: &mut Outcome,
-    choices: &[Choice],
-    remaining: &Remaining,
-    interrupt: Option<&AtomicBool>,
-) -> Option<Subject> {
-    let again = |rest: &Subject, x: &[f64]| nearby(rest, x, choices, remaining, interrupt);
-    let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
-    *outcome = settled.outcome;
-    Some(settled.subject)
+/// What further runs are done by, and within what time.
+struct Means<'a> {
+    choices: &'a [Choice],
+    remaining: &'a Remaining,
+    interrupt: Option<&'a AtomicBool>,
 }
 
-/// One start of every backend from a point of the user's variables; `None` where no time is left for it.
-fn nearby(
-    subject: &Subject,
-    x: &[f64],
-    choices: &[Choice],
-    remaining: &Remaining,
-    interrupt: Option<&AtomicBool>,
-) -> Option<Outcome> {
-    let settings = remaining.settings(&subject.settings)?;
-    let start = subject.completed(x.to_vec());
-    let task = Task { settings: &settings, ..subject.task(&start, interrupt) };
-    Some(present(subject, unobserved(&task, choices)))
+impl Means<'_> {
+    /// The task's outcome by `run`, judged anew where modes coincide or bars have vanished; and the problem it is then an outcome of.
+    fn settled(
+        &self,
+        subject: &Subject,
+        task: &Task<'_>,
+        mut run: impl FnMut(&Task<'_>) -> Outcome,
+    ) -> (Outcome, Option<Subject>) {
+        let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.nearby(rest, settings, x, &self.of_rounds());
+        if let Some(foreseen) = coinciding::foresee(subject, task.start, &rounds) {
+            let start = foreseen.subject.completed(foreseen.outcome.x.clone());
+            let own = foreseen.subject.task(&start, self.interrupt);
+            let all = run(&Task { settings: task.settings, starts: task.starts.max(1), ..own });
+            let all = present(&foreseen.subject, all);
+            if let Some(settled) = foreseen.compared(subject, Some(all)) {
+                return (settled.outcome, Some(settled.subject));
+            }
+        }
+        let outcome = present(subject, run(task));
+        let again = |rest: &Subject, x: &[f64]| self.nearby(rest, &rest.settings, x, self.choices);
+        let coinciding = coinciding::exchange(subject, &outcome, &rounds).and_then(|found| {
+            let all = again(&found.subject, &found.outcome.x);
+            found.compared(subject, all)
+        });
+        match coinciding.or_else(|| vanished::settle(subject, &outcome, again)) {
+            Some(settled) => (settled.outcome, Some(settled.subject)),
+            None => (outcome, None),
+        }
+    }
+
+    /// Rounds that nobody sees are the interior point's, where it is asked for.
+    fn of_rounds(&self) -> Vec<Choice> {
+        let interior_point = by_interior_point();
+        let is_asked = self.choices.iter().any(|choice| choice.backend.name() == interior_point.backend.name());
+        if is_asked { vec![interior_point] } else { self.choices.to_vec() }
+    }
+
+    /// One start of these backends from a point of the user's variables; `None` where no time is left for it.
+    fn nearby(&self, subject: &Subject, settings: &Settings, x: &[f64], choices: &[Choice]) -> Option<Outcome> {
+        let settings = self.remaining.settings(settings)?;
+        let start = subject.completed(x.to_vec());
+        let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
+        Some(present(subject, unobserved(&task, choices)))
+    }
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {
