@@ -3,7 +3,7 @@
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, Par, Side};
 
-use super::{Matrix, Spectrum};
+use super::{Matrix, NEGLIGIBLE, Spectrum};
 use crate::linear_algebra::FactorizationError;
 
 /// The eigenvalues of L⁻¹·B·L⁻ᵀ with K = L·Lᵀ (Golub and Van Loan, *Matrix Computations*, §8.7).
@@ -19,9 +19,11 @@ pub(super) fn spectrum(k: &Matrix, b: &Matrix) -> Result<Spectrum, Factorization
     let mut vectors = found.U().to_owned();
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     let ascending = found.S().column_vector();
-    let values = (0..order).rev().map(|at| ascending[at]).collect();
+    let largest = ascending.iter().fold(0.0f64, |largest, mu| largest.max(mu.abs()));
+    let first = (0..order).find(|&at| ascending[at] > NEGLIGIBLE * largest).unwrap_or(order);
+    let values = (first..order).rev().map(|at| ascending[at]).collect();
     let vector = |at: usize| (0..order).map(|i| scales[i] * vectors[(i, at)]).collect();
-    Ok(Spectrum { values, vectors: (0..order).rev().map(vector).collect() })
+    Ok(Spectrum { values, vectors: (first..order).rev().map(vector).collect() })
 }
 
 fn dense(matrix: &Matrix, scales: &[f64]) -> Mat<f64> {

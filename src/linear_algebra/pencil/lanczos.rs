@@ -8,7 +8,7 @@
 
 use faer::{Mat, Side};
 
-use super::{Matrix, Spectrum, dot};
+use super::{Matrix, NEGLIGIBLE, Spectrum, dot};
 use crate::linear_algebra::{FactorizationError, SymmetricSolver};
 
 /// Vectors in a block: eigenvalues that occur as often come up together, as in columns of square sections.
@@ -19,9 +19,6 @@ const MOST: usize = 800;
 
 /// Residual of a pair, in the norm of K and relative to the largest |μ|: where μ is apart, its square is the error of μ.
 const RESIDUAL: f64 = 1e-14;
-
-/// μ below this share of the largest |μ| are zero but for rounding.
-const NEGLIGIBLE: f64 = 1e-12;
 
 /// A direction begun with of which less than this is left beside the basis is one of the basis.
 const DEPENDENT: f64 = 1e-8;

@@ -15,6 +15,9 @@ use super::FactorizationError;
 /// Up to this order all solutions are found at once by dense factors: faster than the few that are asked for by sparse ones.
 const SMALL: usize = 200;
 
+/// μ below this share of the largest |μ| are zero but for rounding.
+const NEGLIGIBLE: f64 = 1e-12;
+
 /// Solutions of B φ = μ K φ, the largest μ first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
@@ -24,7 +27,8 @@ pub struct Spectrum {
     pub vectors: Vec<Vec<f64>>,
 }
 
-/// The solutions of B φ = μ K φ with the largest positive μ, at least `count` of them where there are as many; K is positive definite.
+/// The solutions of B φ = μ K φ with the largest positive μ, at least `count` of them where there are as many: μ within rounding of zero
+/// are none. K is positive definite.
 ///
 /// ```
 /// use ribopt::linear_algebra::pencil::{Matrix, spectrum};

@@ -11,6 +11,7 @@ fn vectors_solve_the_pencil_and_are_normal() {
     let k = matrix(3, &[4.0, 1.0, 0.0, 1.0, 3.0, 0.5, 0.0, 0.5, 2e6]);
     let b = matrix(3, &[1.0, -0.3, 0.2, -0.3, 0.5, 0.1, 0.2, 0.1, -1.0]);
     let found = spectrum(&k, &b, 3).unwrap();
+    assert_eq!(found.values.len(), 2);
     for (mu, phi) in found.values.iter().zip(&found.vectors) {
         let (left, right) = (b.times(phi), k.times(phi));
         assert!((dot(phi, &right) - 1.0).abs() < 1e-13);

@@ -16,7 +16,7 @@ use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::pencil::{Complement, Matrix, Spectrum, spectrum};
 use crate::model::{AssemblyError, EvaluationError};
 use crate::problem::Problem;
-use crate::problem::modes::{Cut, Eigenvalue, Pencil};
+use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use energies::{Derivatives, Energies};
@@ -28,9 +28,6 @@ const COINCIDENT: f64 = 1e-6;
 
 /// Eigenvalues looked at beyond the last asked for, as they may coincide with it.
 const BESIDE: usize = 4;
-
-/// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
-const NEVER: f64 = 1e30;
 
 /// The eigenvalues that a problem asks for.
 pub struct Modes {
@@ -195,7 +192,7 @@ impl Solved<'_> {
         let value = |one: &Eigenvalue| match *one {
             Eigenvalue::Number(pencil, number) => {
                 let mu = self.solution(pencil)?.spectrum.values.get(number as usize - 1).copied().unwrap_or(0.0);
-                Ok(if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER })
+                Ok(factor(pencil, mu))
             }
             Eigenvalue::Cut(cut) => {
                 let system = self.system(cut as usize)?;
@@ -236,7 +233,7 @@ impl Solved<'_> {
         let solution = self.solution(pencil)?;
         let mu = solution.spectrum.values.get(at).copied().unwrap_or(0.0);
         let z = &self.z;
-        if mu <= 0.0 {
+        if factor(pencil, mu) == NEVER {
             return Ok(Smooth { slope: vec![0.0; z.len()], curvature: Vec::new() });
         }
         let phi = &solution.spectrum.vectors[at];
@@ -307,6 +304,11 @@ fn chained(slope: Vec<f64>, mut curvature: Vec<(usize, usize, f64)>, active: &[u
         curvature.extend(active[..=at].iter().map(|&j| (i, j, second * slope[i] * slope[j])));
     }
     Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature }
+}
+
+/// The eigenvalue that users know, [`NEVER`] where there is none.
+fn factor(pencil: Pencil, mu: f64) -> f64 {
+    if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER }
 }
 
 /// What a cut shows where this is left of S.
