@@ -1,7 +1,7 @@
 //! Whether a point meets its limits: its own violation, the nearest point that meets them to the last digit, and points that
 //! meet them only because they are far away.
 
-use super::point::Point;
+use super::point::{Origin, Point};
 use super::residuals::{Place, Worst, worse};
 use super::scales;
 use super::second_order::Kkt;
@@ -40,6 +40,24 @@ pub(super) fn of(point: &Point<'_>, tolerance: f64) -> Feasibility {
     }
 }
 
+/// Variables and rows up to which places are led back to the rows: a few sparse factorisations each.
+const LARGEST: usize = 2_000;
+
+/// The point itself where it meets every limit, else one that does within `reach` of the variables' sizes at the point.
+pub(super) fn nearest(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64) -> Option<Vec<f64>> {
+    let point = Point::new(origin, x).ok()?;
+    let meets = |at: &Point<'_>| of(at, tolerance).infeasibility <= tolerance;
+    if meets(&point) {
+        return Some(x.to_vec());
+    }
+    if x.len() + point.rows.len() > LARGEST {
+        return None;
+    }
+    let back = way_back(&point, x.to_vec(), reach, &|at| worst_violation(at).1 <= tolerance)?;
+    let is_met = Point::new(origin, &back).is_ok_and(|at| meets(&at));
+    is_met.then_some(back)
+}
+
 /// The worst relative violation and where.
 pub(super) fn worst_violation(point: &Point<'_>) -> Worst {
     let rows = (0..point.rows.len()).map(|i| (Place::Row(i), point.row_violation(i)));
@@ -47,8 +65,9 @@ pub(super) fn worst_violation(point: &Point<'_>) -> Worst {
     rows.chain(bounds).fold((None, 0.0), worse)
 }
 
-/// max_j |x̃_j − x_j|/d_j of a point x̃ that meets every row in the measure of its own terms, where that is at most `tolerance`:
-/// what is zero but for rounding is set to zero, then Newton steps lead back to the rows.
+/// How far a point x̃ that meets every row in the measure of its own terms is away, where that is at most `tolerance`: what is zero
+/// but for rounding is set to zero, then Newton steps lead back to the rows. |x̃_j − x_j| counts over |x_j|, of variables that
+/// were zero over d_j: a size that was given, and is too large, hides nothing.
 fn distance_to_feasible(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     let is_near = |i: usize| {
         let (violation, limit) = point.row_excess(i);
@@ -62,7 +81,9 @@ fn distance_to_feasible(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     let mut x: Vec<f64> = point.x.iter().zip(&point.sizes).map(without_rounding).collect();
     point.meta().clamp(&mut x);
     let x = way_back(point, x, tolerance, &|at| worst_violation(at).1 <= tolerance)?;
-    Some(distance(point, &x))
+    let unit = |x: f64, d: f64| if x.abs() <= tolerance * d { d } else { x.abs() };
+    let moves = x.iter().zip(point.x).zip(&point.sizes).map(|((there, &here), &d)| (there - here).abs() / unit(here, d));
+    Some(moves.fold(0.0, f64::max)).filter(|farthest| *farthest <= tolerance)
 }
 
 /// max_j |x_j − point_j|/d_j
@@ -75,7 +96,7 @@ fn distance(point: &Point<'_>, x: &[f64]) -> f64 {
 fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Point<'_>) -> bool) -> Option<Vec<f64>> {
     let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
     for _ in 0..=STEPS {
-        if distance(point, &x) > reach {
+        if distance(point, &x) > reach || point.is_over() {
             return None;
         }
         let at = Point::new(point.origin, &x).ok()?;

@@ -51,7 +51,10 @@ pub(super) fn sentences(
     }
     if !certificate.runaway.is_empty() {
         let names = list(certificate.runaway.iter().map(|&j| point.variable(j)));
-        all.push(format!("the minimum is not attained: the objective keeps falling, ever more slowly, as {names} runs away"));
+        all.push(match certificate.falls_without_end {
+            true => format!("the objective falls without end as {names} runs away"),
+            false => format!("the minimum is not attained: the objective keeps falling, ever more slowly, as {names} runs away"),
+        });
     }
     if certificate.cut_short {
         all.push("the time limit ended the search for lower points beside and beyond the point".into());

@@ -7,6 +7,7 @@ mod farkas;
 mod feasibility;
 mod gap;
 mod higher_order;
+mod idle_rows;
 mod implied_box;
 mod lower_bound;
 mod messages;
@@ -30,9 +31,11 @@ use multipliers::{Multipliers, Taken};
 use newton::Newton;
 use point::{Origin, Point};
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, worst_slope};
+use runaway::Runaway;
 use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
+use crate::recession::Ray;
 pub use farkas::{Contradiction, contradiction};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
@@ -101,6 +104,22 @@ impl<'a> Certifier<'a> {
         Some(feasibility::of(&point, self.tolerances.constraint).infeasibility)
     }
 
+    /// A way along which the objective falls for ever from a feasible point, stationary or not: outwards from where the variables
+    /// come from, the others led along the floor of the Lagrangian.
+    pub fn way_beyond(&self, x: &[f64]) -> Option<Ray> {
+        let mut point = Point::new(&self.origin, x).ok()?;
+        let feasibility = feasibility::of(&point, self.tolerances.constraint);
+        let (multipliers, found) = self.stationarity(&mut point, None, &feasibility);
+        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
+        let is_feasible = found.is_feasible(&self.tolerances);
+        is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
+    }
+
+    /// `x` where it meets every limit, else a point that does within `reach` of the variables' sizes there, by Newton's steps.
+    pub fn nearest_feasible(&self, x: &[f64], reach: f64) -> Option<Vec<f64>> {
+        feasibility::nearest(&self.origin, x, reach, self.tolerances.constraint)
+    }
+
     /// Judges `x`; see [`certify`].
     ///
     /// # Errors
@@ -131,6 +150,7 @@ impl<'a> Certifier<'a> {
             certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
         }
         certificate.scope = Extent::of(self.class);
+        let multipliers = self.with_idle_rows(&mut point, multipliers, &certificate)?;
         self.second_order(&mut point, &multipliers, &mut certificate)?;
         certificate.messages = messages::sentences(&point, &multipliers, &certificate, &self.tolerances);
         certificate.row_multipliers = multipliers.rows;
@@ -154,8 +174,16 @@ impl<'a> Certifier<'a> {
                 return passed;
             }
         }
-        let found = multipliers::find(point, witness);
+        let mut found = multipliers::find(point, witness);
         let mut certificate = self.first_order(point, &found, feasibility);
+        if witness.is_some() && certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
+            // A guess decides where the search begins, and may lead it astray where limits depend on one another.
+            let unguided = multipliers::find(point, None);
+            let own = self.first_order(point, &unguided, feasibility);
+            if self.is_stationary(&own) {
+                (found, certificate) = (unguided, own);
+            }
+        }
         if certificate.is_feasible(&self.tolerances) && !self.is_stationary(&certificate) {
             // Without second derivatives the slope alone has to do.
             point.add_curvature().unwrap_or_default();
@@ -183,6 +211,32 @@ impl<'a> Certifier<'a> {
         self.is_stationary(&best.1).then_some(best)
     }
 
+    /// Multipliers that prove where those found do not: rows that push nowhere leave theirs open.
+    fn with_idle_rows(
+        &self,
+        point: &mut Point<'_>,
+        multipliers: Multipliers,
+        certificate: &Certificate,
+    ) -> Result<Multipliers, EvaluationError> {
+        let (rows, bounds) = (&certificate.row_sides, &certificate.bound_sides);
+        let idle = idle_rows::of(point, (rows, bounds));
+        if idle.is_empty() || self.class.is_global() || !self.is_stationary(certificate) {
+            return Ok(multipliers);
+        }
+        self.hessian(point, &multipliers)?;
+        for choice in idle_rows::choices(point, &idle, &multipliers)? {
+            let active = Active { rows, bounds, multipliers: &choice };
+            if residuals::complementarity(point, &choice, self.tolerances.optimality) > self.tolerances.optimality {
+                break;
+            }
+            let curvature = second_order::examine(point, &active, &Hessian::of(point, &choice)?, false);
+            if curvature.escape.is_none() && curvature.undecided.is_none() && !curvature.singular {
+                return Ok(choice);
+            }
+        }
+        Ok(multipliers)
+    }
+
     /// What first order leaves open: curvature, what lies beyond it, and variables that have run away.
     fn second_order(
         &self,
@@ -199,11 +253,16 @@ impl<'a> Certifier<'a> {
         }
         let hessian = self.hessian(point, multipliers)?;
         let point = &*point;
-        let Curvature { escape, singular, dependent, undecided, flat } =
-            second_order::examine(point, &active, &hessian, self.class.is_global());
+        let Curvature { escape, singular, dependent, undecided, flat } = match self.class.is_global() && point.is_late() {
+            // First order proves; nothing is said of other minimisers.
+            true => Curvature::default(),
+            false => second_order::examine(point, &active, &hessian, self.class.is_global()),
+        };
+        let has_idle_rows = !idle_rows::of(point, (active.rows, active.bounds)).is_empty();
+        let dependent = dependent || has_idle_rows;
         // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
         let is_proof = |direction: &Vec<f64>| {
-            !(dependent && self.bends_by_choice(point, multipliers))
+            !(dependent && (has_idle_rows || self.bends_by_choice(point, multipliers)))
                 || higher_order::confirm(point, &active, &hessian, &self.tolerances, direction)
         };
         let has_negative_curvature = escape.as_ref().is_some_and(is_proof);
@@ -215,28 +274,37 @@ impl<'a> Certifier<'a> {
         };
         let descends_at_higher_order = descent.is_some();
         let mut runaway = match has_negative_curvature || descends_at_higher_order {
-            true => Vec::new(),
-            false => runaway::variables(point, &active, &hessian, self.class, &self.tolerances),
+            true => Runaway::default(),
+            false => runaway::find(point, &active, &hessian, (self.class, dependent), &self.tolerances),
         };
-        let mut elsewhere = None;
-        let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.is_empty();
-        if may_deceive && self.class != Class::Linear && !point.is_over() {
-            match newton::steps(point, &active, self.tolerances.constraint) {
-                Newton::Stays => {}
-                Newton::LeadsTo(direction) => elsewhere = Some(direction),
-                Newton::Falls(variables) => runaway = variables,
-            }
-        }
+        let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.variables.is_empty();
+        let elsewhere = if may_deceive { self.led_on(point, &active, &mut runaway) } else { None };
         certificate.led_on = elsewhere.is_some();
         certificate.cut_short = point.is_cut_short();
-        let goes_on = !runaway.is_empty() || certificate.led_on || certificate.cut_short;
+        let goes_on = !runaway.variables.is_empty() || certificate.led_on || certificate.cut_short;
         certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
         certificate.escape = escape.or(descent).or(elsewhere);
-        (certificate.negative_curvature, certificate.descends_at_higher_order, certificate.runaway) =
-            (has_negative_curvature, descends_at_higher_order, runaway);
+        (certificate.negative_curvature, certificate.descends_at_higher_order) =
+            (has_negative_curvature, descends_at_higher_order);
+        (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);
         certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
+    }
+
+    /// Where Newton's steps lead, if they do not stay; those that fall without end are noted as a way that runs away.
+    fn led_on(&self, point: &Point<'_>, active: &Active<'_>, runaway: &mut Runaway) -> Option<Vec<f64>> {
+        if self.class == Class::Linear || point.is_over() {
+            return None;
+        }
+        match newton::steps(point, active, self.tolerances.constraint) {
+            Newton::Stays => None,
+            Newton::LeadsTo(direction) => Some(direction),
+            Newton::Falls(variables) => {
+                *runaway = Runaway::settling(variables);
+                None
+            }
+        }
     }
 
     /// The three residuals and the active sides.

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::scales;
 use crate::certificate::Side;
+use crate::linear_algebra::FactorizationError;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
 
 /// Roundings that the value of a row may hold, in units of the sum of its terms.
@@ -98,13 +99,23 @@ impl<'a> Point<'a> {
         })
     }
 
+    /// Whether the deadline has passed.
+    pub(super) fn is_late(&self) -> bool {
+        self.origin.until.is_some_and(|until| Instant::now() >= until)
+    }
+
     /// Whether searches have to end, and so are cut short.
     pub(super) fn is_over(&self) -> bool {
-        let is_over = self.origin.until.is_some_and(|until| Instant::now() >= until);
+        let is_over = self.is_late();
         if is_over {
             self.cut_short.store(true, Relaxed);
         }
         is_over
+    }
+
+    /// Before a factorisation: nothing is begun after the deadline.
+    pub(super) fn in_time(&self) -> Result<(), FactorizationError> {
+        if self.is_over() { Err(FactorizationError::Late) } else { Ok(()) }
     }
 
     /// Whether a search was cut short.

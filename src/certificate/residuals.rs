@@ -64,10 +64,13 @@ pub(super) fn objective_lost(point: &Point<'_>) -> f64 {
     ((last_digits(point) - 64.0 * f64::EPSILON * point.objective.abs()) / point.scale()).max(0.0)
 }
 
-/// What the last digits of x make of the objective.
+/// What the last digits of x make of the objective; those of fixed variables are given.
 pub(super) fn last_digits(point: &Point<'_>) -> f64 {
     let change = |digits: f64| {
-        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
+        let moved = |(j, x): (usize, &f64)| match point.meta().is_fixed(j) {
+            true => *x,
+            false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
+        };
         let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
         point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
     };

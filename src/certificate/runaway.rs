@@ -7,65 +7,125 @@ use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
 use super::{Class, Tolerances};
 use crate::model::{EvaluationError, Model};
-use crate::recession::{Site, Valley};
+use crate::recession::{self, Fall, Ray, Site, Valley};
 
 /// Directions that bend by less than this, in units of σ, are looked at.
 const FLAT: f64 = 1e-3;
 const DIRECTIONS: usize = 12;
 /// Variables followed at the most.
 const FOLLOWED: usize = 12;
+/// Variables followed from a point that is not stationary, or because they are so many of their sizes away from the start.
+const OUTWARDS: usize = 3;
+const FAR: f64 = 1e3;
 /// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
 /// matrices of order N takes N³ operations, and some thousand steps are taken.
 pub(super) const LARGEST: usize = 120;
 /// Above this order, flat directions are those of single variables.
 const LARGEST_FOR_DIRECTIONS: usize = 2_000;
 
-/// The variables along whose way the objective falls, however far one goes; empty at a true minimum. A linear problem that has a
-/// bound attains it (fundamental theorem of linear programming).
-pub(super) fn variables(
+/// Variables along whose way the objective falls, however far one goes; none at a true minimum.
+#[derive(Debug, Default)]
+pub(super) struct Runaway {
+    pub(super) variables: Vec<usize>,
+    /// It falls no less the farther one goes.
+    pub(super) is_endless: bool,
+}
+
+impl Runaway {
+    pub(super) fn settling(variables: Vec<usize>) -> Self {
+        Runaway { variables, is_endless: false }
+    }
+}
+
+/// Looks for a way along which the objective falls for ever. A linear problem that has a bound attains it (fundamental theorem of
+/// linear programming). `dependent`: the active limits depend on one another.
+pub(super) fn find(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
-    class: Class,
+    (class, dependent): (Class, bool),
     tolerances: &Tolerances,
-) -> Vec<usize> {
+) -> Runaway {
     if class == Class::Linear {
-        return Vec::new();
+        return Runaway::default();
     }
     let choice = Choice::all(point, active);
-    let directions = directions(point, hessian, &choice);
-    let follows = choice.free.len() + choice.held.len() <= LARGEST;
+    let directions = directions(point, hessian, &choice, dependent);
+    let found = if choice.free.len() + choice.held.len() <= LARGEST {
+        // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
+        // variable that seems to rest on its bound.
+        let held = |rows: Vec<usize>| held_rows(point, rows);
+        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
+        let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
+        follow(point, active, &directions, (&free, &strict), tolerances)
+            .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
+            .or_else(|| {
+                (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?
+            })
+    } else {
+        follow(point, active, &directions, (&[], &[]), tolerances)
+    };
+    match found {
+        Some((direction, fall)) => {
+            Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
+        }
+        None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
+    }
+}
+
+/// Whether the class leaves it open: a posynomial that is minimised, not the inverse of one that is maximised, stays positive.
+fn may_be_endless(point: &Point<'_>, class: Class) -> bool {
+    class != Class::GeometricProgram || point.objective < 0.0
+}
+
+/// The same from a feasible point that need not be stationary: outwards on the way that has led there from the start, and along the
+/// variables that have moved most on it.
+pub(super) fn beyond(point: &Point<'_>, active: &Active<'_>, class: Class, tolerances: &Tolerances) -> Option<Ray> {
+    let choice = Choice::all(point, active);
+    let (free, held) = (choice.loose_variables(), held_rows(point, choice.held.clone()));
+    if class == Class::Linear || free.len() + held.len() > LARGEST {
+        return None;
+    }
+    let way: Vec<f64> = point.x.iter().zip(&point.meta().start).map(|(x, start)| x - start).collect();
+    let mut farthest: Vec<usize> = free.iter().copied().filter(|&j| way[j] != 0.0).collect();
+    let moved = |j: usize| (way[j] / recession::size(point.meta().start[j])).abs();
+    farthest.sort_by(|&a, &b| moved(b).total_cmp(&moved(a)));
+    let axis = |j: usize| {
+        let mut axis = vec![0.0; way.len()];
+        axis[j] = way[j];
+        axis
+    };
+    let axes = farthest.into_iter().take(OUTWARDS).map(axis);
+    let directions: Vec<Vec<f64>> = axes.chain([way.clone()]).collect();
+    let (direction, fall) = follow(point, active, &directions, (&free, &held), tolerances)?;
+    let fall = if may_be_endless(point, class) { fall } else { Fall::Settling };
+    Some(Ray { fall, direction, from: point.x.to_vec() })
+}
+
+/// The first of the directions, each both ways, that runs off.
+fn follow(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    directions: &[Vec<f64>],
+    (free, held): (&[usize], &[(usize, f64)]),
+    tolerances: &Tolerances,
+) -> Option<(Vec<f64>, Fall)> {
     let is_feasible = |x: &[f64]| {
         !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
     };
-    let held = |rows: Vec<usize>| held_rows(point, rows);
-    let runs_off = |free: &[usize], held: &[(usize, f64)]| {
-        let site = Site {
-            model: &point.origin.model,
-            x: point.x,
-            sizes: point.plain_sizes(),
-            free,
-            held,
-            multipliers: &active.multipliers.rows,
-            is_feasible: &is_feasible,
-        };
-        let valley = Valley::new(site);
-        let both = directions
-            .iter()
-            .flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
-        both.into_iter().find(|direction| valley.runs_off(direction))
+    let site = Site {
+        model: &point.origin.model,
+        x: point.x,
+        sizes: point.plain_sizes(),
+        free,
+        held,
+        multipliers: &active.multipliers.rows,
+        is_feasible: &is_feasible,
     };
-    let found = if follows {
-        // Far from the start, multipliers may be too small to tell which rows push.
-        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
-        runs_off(&free, &strict).or_else(|| if all.len() > strict.len() { runs_off(&free, &all) } else { None })
-    } else {
-        runs_off(&[], &[])
-    };
-    match found {
-        Some(direction) => moving(point, &direction),
-        None => towards_bounds(point, tolerances.constraint),
-    }
+    let valley = Valley::new(site);
+    let both =
+        directions.iter().flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
+    both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
 /// Rows with the limits they are held to.
@@ -82,7 +142,7 @@ fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
 
 /// Flat directions, each as it is and its variables that move most one by one; then the ways that have led here, from the start
 /// and from zero.
-fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<f64>> {
+fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: bool) -> Vec<Vec<f64>> {
     let meta = point.meta();
     let is_open = |&j: &usize| meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY;
     let (mut found, mut axes) = (Vec::new(), Vec::new());
@@ -101,6 +161,11 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice) -> Vec<Vec<
             found.push(point.x.iter().zip(&meta.start).map(|(x, start)| x - start).collect());
             found.push(point.x.to_vec());
         }
+        // Of limits that depend on one another, a row may only seem to hold a variable far from where it comes from.
+        let start = |j: usize| meta.start[j];
+        let is_far = |j: &usize| (point.x[*j] - start(*j)).abs() > FAR * recession::size(start(*j));
+        let followed = if dependent { OUTWARDS } else { 0 };
+        axes.extend(free.iter().copied().filter(is_open).filter(is_far).take(followed));
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));

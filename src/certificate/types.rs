@@ -100,6 +100,8 @@ pub struct Certificate {
     pub minimiser_may_not_be_unique: bool,
     /// Variables that have run away: a point that passes only because of them is no minimum.
     pub runaway: Vec<usize>,
+    /// Along their way the objective falls no less the farther one goes: it has no lower bound.
+    pub falls_without_end: bool,
     /// Newton's steps lead on, to another point: this one is stationary only in a measure that deceives.
     pub led_on: bool,
     /// The deadline ended a search for lower points before it was done: nothing is proved.

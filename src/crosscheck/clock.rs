@@ -38,12 +38,11 @@ impl<'a> Clock<'a> {
         self.deadline.map(|deadline| deadline + GRACE)
     }
 
-    /// A budget with this share of the time that is left, at most `most` seconds.
-    pub(super) fn share(&self, share: f64, most: f64) -> Budget<'a> {
+    /// A budget with this share of the time that is left.
+    pub(super) fn share(&self, share: f64) -> Budget<'a> {
         let now = Instant::now();
-        let left = self.deadline.map_or(f64::INFINITY, |deadline| deadline.saturating_duration_since(now).as_secs_f64());
-        let seconds = (left * share).min(most);
-        let deadline = (seconds < NO_DEADLINE).then(|| now + Duration::from_secs_f64(seconds));
+        let left = |deadline: Instant| deadline.saturating_duration_since(now);
+        let deadline = self.deadline.map(|deadline| now + left(deadline).mul_f64(share));
         Budget { max_evaluations: self.max_evaluations, deadline, interrupt: self.interrupt }
     }
 }

@@ -29,21 +29,9 @@ impl<'r, 'o> Ledger<'r, 'o> {
 
     /// Solves with backend k from `start` (user's variables), with so much work.
     pub(super) fn run(&mut self, k: usize, start: &[f64], allowed: f64) -> Answer {
-        let multipliers = if self.attempts[k] == 0 { self.session.task.start_multipliers } else { None };
-        self.run_within(k, start, (allowed, work::fence(allowed)), multipliers)
-    }
-
-    /// The same, and with a deadline so many seconds from now.
-    pub(super) fn run_within(
-        &mut self,
-        k: usize,
-        start: &[f64],
-        (allowed, seconds): (f64, f64),
-        multipliers: Option<&[f64]>,
-    ) -> Answer {
         let (session, solver) = (self.session, self.solvers[k]);
-        let mut budget = session.budget(solver, session.task.model_for(solver.backend), allowed);
-        budget.deadline = session.clock.share(0.9, seconds.min(work::fence(allowed))).deadline;
+        let multipliers = if self.attempts[k] == 0 { session.task.start_multipliers } else { None };
+        let budget = session.budget(solver, session.task.model_for(solver.backend), allowed);
         self.attempts[k] += 1;
         let mut observer: Box<dyn FnMut(&Iteration<'_>) + '_> = (self.observers)(k, solver.algorithm);
         let mut answer = session.attempt(solver, start, multipliers, budget, &mut observer);

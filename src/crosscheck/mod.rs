@@ -28,7 +28,7 @@ mod work;
 
 use crate::backends::{Backend, Termination};
 use crate::certificate::impossible_row;
-use diverging::{Fall, Ray};
+use crate::recession::{Fall, Ray};
 use infeasible::Elasticity;
 use ledger::Ledger;
 use session::{Session, Solver};

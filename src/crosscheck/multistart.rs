@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::ledger::Ledger;
-use super::seeds::Seeds;
+use super::seeds::{self, Seeds};
 use super::session::{Session, Solver};
-use super::{Answer, Minimum, work};
+use super::{Answer, Minimum, merit, work};
+use crate::certificate::Certificate;
 
 /// Relative distance within which two minima of equal value are one.
 const SAME: f64 = 1e-4;
@@ -21,24 +22,28 @@ pub(super) struct Found {
 
 /// Runs `count` seeded starts. The order of the results is the order of the seeds, whatever thread finished first.
 pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], count: usize) -> Vec<Found> {
-    let one = |index: usize| from_seed(session, solvers, order, index as u64 + 3, f64::INFINITY);
+    let start = |index: usize| Seeds::new(index as u64 + 3).point(session.task.model.meta());
+    let one = |index: usize| from_start(session, solvers, order, start(index), f64::INFINITY);
     (0..count).into_par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// A certified answer not above `value` from one of a few seeded starts, where one is found soon: what runs off from one start may
+/// A certified answer not above `value`, beyond what counts as agreement, from the origin or one of a few seeded starts, where one is found soon: what runs off from one start may
 /// be attained from another.
 pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
+    let session = ledger.session;
     let is_attained = |answer: &Answer| {
-        answer.certificate.as_ref().is_some_and(|certificate| certificate.certified && certificate.objective <= value)
+        let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
+        answer.certificate.as_ref().is_some_and(|own| own.certified && reaches(own))
     };
     let allowed = work::further_run(0.0) / FEW as f64;
-    let from = |index: u64| from_seed(ledger.session, ledger.solvers, &ledger.order(), index + 3, allowed);
-    (0..FEW).find_map(|index| from(index).filter(|found| is_attained(&found.answer)))
+    let meta = session.task.model.meta();
+    let starts = std::iter::once(seeds::origin(meta)).chain((0..FEW).map(|index| Seeds::new(index + 3).point(meta)));
+    let from = |start| from_start(session, ledger.solvers, &ledger.order(), start, allowed);
+    starts.into_iter().find_map(|start| from(start).filter(|found| is_attained(&found.answer)))
 }
 
-/// The backends in turn from one seeded start, until an answer is certified; the best of them.
-fn from_seed(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], seed: u64, allowed: f64) -> Option<Found> {
-    let start = Seeds::new(seed).point(session.task.model.meta());
+/// The backends in turn from one start, until an answer is certified; the best of them.
+fn from_start(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize], start: Vec<f64>, allowed: f64) -> Option<Found> {
     let mut best: Option<Found> = None;
     for &k in order {
         if session.clock.is_over() {

@@ -38,6 +38,13 @@ pub(super) fn middle(meta: &Meta) -> Vec<f64> {
     (0..meta.variables()).map(|j| domain::middle(meta.start[j], meta.lower[j], meta.upper[j], j)).collect()
 }
 
+/// 0, or the bound that is nearest to it: a place no start decides.
+pub(super) fn origin(meta: &Meta) -> Vec<f64> {
+    let mut x = vec![0.0; meta.variables()];
+    meta.clamp(&mut x);
+    x
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

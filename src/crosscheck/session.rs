@@ -1,8 +1,8 @@
 //! The task with what is needed to run backends and to judge what they bring.
 
 use super::clock::Clock;
+use super::pool;
 use super::{Answer, Task};
-use super::{pool, work};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
 use crate::certificate::{Certifier, Tolerances};
 use crate::model::{Budget, Class, Model};
@@ -52,9 +52,9 @@ impl<'a> Session<'a> {
         solver.backend.work_per_evaluation(self.task.model_for(solver.backend)).max(1.0)
     }
 
-    /// A budget of so much work on `model`, with a deadline far beyond what that should take.
+    /// A budget of so much work on `model`, and most of the time that is left.
     pub(super) fn budget(&self, solver: Solver<'_>, model: &dyn Model, allowed: f64) -> Budget<'a> {
-        let whole = self.clock.share(0.9, work::fence(allowed));
+        let whole = self.clock.share(0.9);
         let evaluations = allowed / solver.backend.work_per_evaluation(model).max(1.0);
         // Saturates: an infinite allowance is u64::MAX.
         Budget { max_evaluations: whole.max_evaluations.min(evaluations as u64), ..whole }
@@ -88,7 +88,8 @@ impl<'a> Session<'a> {
         // Multipliers known are those of the user's rows: no guess for rows in other variables.
         let start = Start { x: &inward, multipliers: None, budget, stop: &stop, part: None };
         let mut solution = self.solve(solver, other.model(), &start, &mut translated);
-        solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(&y));
+        let z = &solution.x;
+        solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(self.task.model, z, &y));
         solution.x = self.outward(&solution.x);
         self.judged(solver, solution)
     }

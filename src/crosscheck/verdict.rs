@@ -1,12 +1,12 @@
 //! From judged answers to the outcome.
 
-use super::diverging::{Fall, Ray};
 use super::merit;
 use super::messages;
 use super::session::Session;
 use super::{Agreement, Answer, Conflict, Outcome, Status};
 use crate::backends::Termination;
 use crate::certificate::{Certifier, Extent, lower_bound};
+use crate::recession::{Fall, Ray};
 
 /// Certified points of equal value this far apart, relative, are two minimisers.
 const APART: f64 = 1e-3;

@@ -1,19 +1,10 @@
 //! Shares of work. What a run may cost is counted in evaluations times what one costs the backend, never in seconds: a slow
-//! machine gives the same answer. Deadlines are far behind, for backends whose cost is misjudged.
-
-use std::time::Duration;
+//! machine gives the same answer. The deadline of the command is another matter: [`super::clock`].
 
 use super::Answer;
 
 /// Entries of values and derivatives a slow core works off in a second, expressions and factorisations included.
 const PER_SECOND: f64 = 1e7;
-/// A run that takes so many times what its work should is misjudged, or the machine is busy with fifty others.
-const PATIENCE: f64 = 50.0;
-/// Seconds every run may take.
-const SHORTEST: f64 = 10.0;
-/// So many times as long as a proof took, on the same machine, and so many seconds at least.
-const AFTER_PROOF: (f64, f64) = (10.0, 2.0);
-
 /// What is left to the others once a global minimum is proved: as much again as the proof took, at least 0.2 s worth.
 pub(super) fn cross_check(proof: f64) -> f64 {
     proof.max(0.2 * PER_SECOND)
@@ -46,28 +37,19 @@ pub(super) fn further_run(first: f64) -> f64 {
     first.clamp(PER_SECOND, 10.0 * PER_SECOND)
 }
 
-/// All solves of the elastic phase together: twice the cheapest first run, and a thousand evaluations at least.
+/// All solves of the elastic phase together: twice the cheapest first run, and five hundred evaluations at least: five runs of an
+/// interior point that converge.
 pub(super) fn elastic_phase(first: f64, cost: f64) -> f64 {
-    (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(1000.0 * cost)
+    (2.0 * first).clamp(0.5 * PER_SECOND, 10.0 * PER_SECOND).max(500.0 * cost)
 }
 
-/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves.
+/// What explains an elastic minimum, each: its scales, the filter of what conflicts, single moves. Half of what finding it may take.
 pub(super) fn explanation(first: f64, cost: f64) -> f64 {
-    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(1000.0 * cost)
+    (0.5 * first).clamp(0.5 * PER_SECOND, 3.0 * PER_SECOND).max(250.0 * cost)
 }
 
 /// Evaluations below which a run is not worth beginning.
 pub(super) const FEWEST_EVALUATIONS: f64 = 20.0;
-
-/// Seconds after which the work allowed must have been done.
-pub(super) fn fence(work: f64) -> f64 {
-    (PATIENCE * work / PER_SECOND).max(SHORTEST)
-}
-
-/// The same where a proof that took so long bounds what may follow: ten times as long, at least two seconds.
-pub(super) fn cross_check_fence(proof: Duration) -> f64 {
-    (AFTER_PROOF.0 * proof.as_secs_f64()).max(AFTER_PROOF.1)
-}
 
 /// What an answer has cost, all its attempts together.
 pub(super) fn of(answer: &Answer, cost: f64) -> f64 {

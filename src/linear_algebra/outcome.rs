@@ -31,4 +31,7 @@ pub enum FactorizationError {
     /// The library refused, most often because a value was no number.
     #[error("the factorisation failed: {0}")]
     Library(String),
+    /// The time for it was over before it began.
+    #[error("the time limit is reached")]
+    Late,
 }

@@ -26,9 +26,12 @@ pub fn valid_near(model: &dyn Model, start: &[f64]) -> Result<Vec<f64>, Evaluati
     };
     let tries = TRIES.min(WORK / (start.len() + 1) / RADII.len()).max(2);
     let mut random = SplitMix::new(11);
-    let candidates = RADII.into_iter().flat_map(|radius| (0..tries).map(move |k| (radius, k)));
-    for (radius, k) in candidates {
-        let x = moved(model, start, radius, &mut direction(k, &mut random));
+    // Where units are large a step of 1 is beyond everything: then starts tell the sizes.
+    let candidates = [1.0, 0.0]
+        .into_iter()
+        .flat_map(|least| RADII.into_iter().flat_map(move |radius| (0..tries).map(move |k| (least, radius, k))));
+    for (least, radius, k) in candidates {
+        let x = moved(model, (start, least), radius, &mut direction(k, &mut random));
         if values(model, &x).is_ok() {
             return Ok(nearer(model, start, x));
         }
@@ -106,13 +109,19 @@ fn direction(k: usize, random: &mut SplitMix) -> impl FnMut(usize, usize) -> f64
     }
 }
 
-/// The start moved by `radius` along a direction, kept inside the bounds.
-fn moved(model: &dyn Model, start: &[f64], radius: f64, direction: &mut impl FnMut(usize, usize) -> f64) -> Vec<f64> {
+/// The start moved by `radius` along a direction, kept inside the bounds. A variable whose start is not 0 has at least the size
+/// `least`, where its bounds leave that much room.
+fn moved(
+    model: &dyn Model,
+    (start, least): (&[f64], f64),
+    radius: f64,
+    direction: &mut impl FnMut(usize, usize) -> f64,
+) -> Vec<f64> {
     let meta = model.meta();
     let one = |(j, &x): (usize, &f64)| {
         let (lower, upper) = (meta.lower[j], meta.upper[j]);
         let room = if (upper - lower).is_finite() { upper - lower } else { f64::INFINITY };
-        let size = if x == 0.0 { room.min(1.0) } else { x.abs().max(room.min(1.0)) };
+        let size = if x == 0.0 { room.min(1.0) } else { x.abs().max(room.min(least)) };
         (x + radius * size * direction(j, start.len())).max(lower).min(upper)
     };
     start.iter().enumerate().map(one).collect()

@@ -150,7 +150,7 @@ impl Substitution for WithDisplacements {
         z[..self.0.meta().variables().min(z.len())].to_vec()
     }
 
-    fn outward_multipliers(&self, y: &[f64]) -> Option<Vec<f64>> {
+    fn outward_multipliers(&self, _user: &dyn Model, _z: &[f64], y: &[f64]) -> Option<Vec<f64>> {
         Some(y.get(..self.0.meta().rows())?.to_vec())
     }
 }

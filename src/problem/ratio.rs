@@ -11,6 +11,9 @@ use crate::expression::operators::{Binary, Fold, Unary};
 /// Definitions seen through one inside another.
 const DEPTH: usize = 64;
 
+/// The same within a factor: each level is looked at for both factors of a product.
+const SPREAD: usize = 8;
+
 /// Terms of one row at which definitions stay closed: they may share one another many times over.
 const MOST_TERMS: usize = 10_000;
 
@@ -73,7 +76,10 @@ impl Problem {
             }
             Formula::Fold(Fold::Sum, list) => list.iter().for_each(|one| go(one, factor)),
             Formula::Binary(Binary::Multiply | Binary::Divide, ..) => match coefficient(formula) {
-                (number, Some(rest)) if is_product(&rest) => sides.push(&rest, factor * number),
+                (number, Some(rest)) if is_product(&rest) => match self.spread(&rest, depth.min(SPREAD) - 1) {
+                    Some(spread) if terms < MOST_TERMS => sides.add(spread, factor * number),
+                    _ => sides.push(&rest, factor * number),
+                },
                 (number, Some(rest)) => go(&rest, factor * number),
                 (number, None) => sides.push(&Formula::Constant(number.abs()), factor * sign(number)),
             },
@@ -82,6 +88,21 @@ impl Problem {
             }
             other => sides.push(other, factor),
         }
+    }
+
+    /// A product one factor of which has terms of both signs, term by term: `a*(x − y)` is `a*x − a*y`.
+    fn spread(&self, product: &Formula, depth: usize) -> Option<Sides> {
+        let Formula::Binary(op, left, right) = product else { return None };
+        let mixed = |factor: &Formula| {
+            let mut sides = Sides::default();
+            self.collect(factor, 1.0, depth, &mut sides);
+            (!sides.positive.is_empty() && !sides.negative.is_empty()).then_some(sides)
+        };
+        if let Some(sides) = mixed(left) {
+            return Some(sides.map(|term| joined(*op, term, (**right).clone())));
+        }
+        let sides = if *op == Binary::Multiply { mixed(right) } else { None };
+        Some(sides?.map(|term| joined(*op, (**left).clone(), term)))
     }
 
     /// Whether a definition is worth opening: its outermost operation has terms of either sign.
@@ -138,6 +159,19 @@ struct Sides {
 impl Sides {
     fn terms(&self) -> usize {
         self.positive.len() + self.negative.len()
+    }
+
+    fn map(self, change: impl Fn(Formula) -> Formula) -> Sides {
+        Sides {
+            positive: self.positive.into_iter().map(&change).collect(),
+            negative: self.negative.into_iter().map(&change).collect(),
+        }
+    }
+
+    /// Adds `factor` times the terms of both sides.
+    fn add(&mut self, other: Sides, factor: f64) {
+        other.positive.iter().for_each(|term| self.push(term, factor));
+        other.negative.iter().for_each(|term| self.push(term, -factor));
     }
 
     fn push(&mut self, formula: &Formula, factor: f64) {
@@ -200,6 +234,16 @@ mod tests {
         let Ratio::Row(ratio, _) = Problem::default().ratio(&negated, &Limit::AtLeast(number(-2.0))) else { panic!() };
         let expected = product(*variable(0), *variable(1));
         assert_eq!(ratio, Formula::Binary(Binary::Divide, Box::new(expected), Box::new(number(2.0))));
+    }
+
+    #[test]
+    fn a_factor_stands_before_every_term_of_a_difference() {
+        let product = |left, right| Formula::Binary(Binary::Multiply, Box::new(left), Box::new(right));
+        let difference = Formula::Binary(Binary::Subtract, variable(1), variable(2));
+        let row = product(*variable(0), difference);
+        let Ratio::Row(ratio, _) = Problem::default().ratio(&row, &Limit::AtMost(number(0.0))) else { panic!() };
+        let (above, below) = (product(*variable(0), *variable(1)), product(*variable(0), *variable(2)));
+        assert_eq!(ratio, Formula::Binary(Binary::Divide, Box::new(above), Box::new(below)));
     }
 
     #[test]

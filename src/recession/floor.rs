@@ -8,7 +8,8 @@ use super::valley::Site;
 const CORRECTIONS: usize = 12;
 /// A step below this, relative to the variables, ends the corrections.
 const SETTLED: f64 = 1e-10;
-/// Regularisation of the Hessian's diagonal, relative to the magnitudes of its row, and of rows that are dependent.
+/// Regularisation of the Hessian's diagonal, relative to the magnitudes of its row in units of the variables' sizes, and of rows
+/// that are dependent.
 const PROXIMAL: f64 = 1e-10;
 const DUAL: f64 = 1e-14;
 /// The same where the steps are to stay at a stationary point: the accepted slope of 1e−6 moves it by 1e−3 at the most.
@@ -73,7 +74,8 @@ pub fn newton(site: &Site<'_>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
     Some((place.x, lengths))
 }
 
-/// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes its own curvature one.
+/// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes the curvature of its row one: rows
+/// are summed in units of the variables' sizes, so that units change nothing.
 fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, proximal: f64) -> Option<Vec<f64>> {
     let (meta, model) = (site.meta(), site.model);
     let (n, m) = (moving.len(), site.held.len());
@@ -96,7 +98,8 @@ fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, proximal: f64) 
             }
         }
     }
-    let size: Vec<f64> = (0..n).map(|k| (0..n).map(|l| matrix[(k, l)].abs()).sum()).collect();
+    let d = |k: usize| site.sizes[moving[k]];
+    let size: Vec<f64> = (0..n).map(|k| (0..n).map(|l| matrix[(k, l)].abs() * (d(l) / d(k))).sum()).collect();
     for (k, &(i, _)) in site.held.iter().enumerate() {
         for entry in meta.jacobian.range(i) {
             let j = at[meta.jacobian.columns[entry] as usize];

@@ -4,9 +4,15 @@
 //! [`Valley`] follows the floor of the Lagrangian's valley outwards from a point: one variable is moved on in growing steps, the
 //! others are led back to the active rows and to stationarity by Newton steps at each. Distances double, so that neither the
 //! origin nor the units of the variables matter.
+//!
+//! [`Terrain`] follows ways that need no derivatives: straight ones, power curves, and the way to an edge of the domain.
 
 mod floor;
+mod height;
 mod valley;
+mod ways;
 
 pub use floor::newton;
+pub use height::Fall;
 pub use valley::{Site, Valley};
+pub use ways::{Ray, Terrain, size};

@@ -1,7 +1,7 @@
 //! Following a valley outwards.
 
 use super::floor::{Floor, settle};
-use crate::math::split_mix::SplitMix;
+use super::height::{Fall, Height, ROUNDINGS, is_endless, last_digits};
 use crate::model::{Meta, Model};
 
 /// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, and 2^100 sizes are beyond anything a model
@@ -17,10 +17,12 @@ const BACK: std::ops::Range<i32> = -6..40;
 const DECADES: i32 = 310;
 /// Halvings between a place with a value and one without.
 const BISECTIONS: usize = 60;
-/// Roundings a value may hold, in units of its own size.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-/// Last digits by which a place is moved to see what rounding makes of a value.
-const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
+/// A place within this of the point, in sizes, is the same but for rounding and what is accepted of rows.
+const BESIDE: f64 = 1e-3;
+/// Halvings of the way to a floor at which it must not rise: at a strict minimum it does however near.
+const HALVINGS: std::ops::RangeInclusive<i32> = 1..=10;
+/// Doublings between heights that are compared for endlessness: nearly a decade.
+const DECADE: usize = 3;
 
 /// A stationary point and what is known about it.
 pub struct Site<'a> {
@@ -51,13 +53,6 @@ pub struct Valley<'a> {
     site: Site<'a>,
 }
 
-/// A value with what rounding may make of it.
-#[derive(Clone, Copy)]
-struct Height {
-    value: f64,
-    noise: f64,
-}
-
 /// Which variable is moved, its first step, and how the others go with it.
 struct Lead {
     pivot: usize,
@@ -80,36 +75,55 @@ impl Lead {
     }
 }
 
-impl Height {
-    fn rises_above(self, base: Height) -> bool {
-        self.value > base.value + 4.0 * (base.noise + self.noise)
-    }
-}
-
 impl<'a> Valley<'a> {
     /// The valley about a site.
     pub fn new(site: Site<'a>) -> Self {
         Valley { site }
     }
 
-    /// Whether, going on for ever in this direction (length n; the variable that moves most is led, the others follow the floor), the
-    /// objective never rises, and falls: either on that way, or, where it is level to the last digit, on the way that leads here
+    /// How the objective falls, going on for ever in this direction (length n; the variable that moves most is led, the others follow
+    /// the floor): `None` unless it never rises, and falls: either on that way, or, where it is level to the last digit, on the way that leads here
     /// from the other side. (A function that is level along a half-line and rises on the other one is level for rounding alone: it
     /// nears an asymptote. One that is piecewise has its pieces as rows here, and is judged feasible or not.)
-    pub fn runs_off(&self, direction: &[f64]) -> bool {
-        let Some(lead) = Lead::new(&self.site, direction) else { return false };
+    pub fn runs_off(&self, direction: &[f64]) -> Option<Fall> {
+        let lead = Lead::new(&self.site, direction)?;
         let start = Floor { x: self.site.x.to_vec(), multipliers: self.site.multipliers.to_vec() };
-        let Some((here, base)) = self.place(&lead, self.site.x[lead.pivot], &start) else { return false };
-        match self.outwards(&lead, here.clone(), base) {
-            Some(fall) if fall > 0.0 => true,
-            Some(_) => self.rises_back(&lead, here, base),
-            None => false,
+        let unmoved = self.height(&start)?;
+        let (here, base) = self.place(&lead, self.site.x[lead.pivot], &start)?;
+        if !self.is_beside(&here.x) && !self.leads_to(&here, base, unmoved) {
+            return None;
         }
+        let heights = self.outwards(&lead, here.clone(), base)?;
+        let decades: Vec<Height> = heights.iter().rev().step_by(DECADE).rev().copied().collect();
+        if is_endless(&decades) {
+            return Some(Fall::Endless);
+        }
+        let lowest = heights.iter().fold(base, |low, &height| if height.value < low.value { height } else { low });
+        let falls = base.value - lowest.value > base.noise + lowest.noise;
+        (falls || self.rises_back(&lead, here, base)).then_some(Fall::Settling)
     }
 
-    /// By how much the objective falls on the way outwards, beyond rounding; `None` where it rises or ends at a limit.
-    fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<f64> {
+    /// Whether the straight way from the point to a floor never rises, as far as it is feasible: Newton's steps may lead anywhere (from beside
+    /// the tip of a cone, or where the objective does not bend up), and what falls from a floor beyond a rise says nothing of the point.
+    fn leads_to(&self, floor: &Floor, height: Height, unmoved: Height) -> bool {
+        let rises = |halving: i32| {
+            let share = f64::from(-halving).exp2();
+            let x: Vec<f64> = self.site.x.iter().zip(&floor.x).map(|(from, to)| from + share * (to - from)).collect();
+            let there = Floor { x, multipliers: floor.multipliers.clone() };
+            self.height(&there).is_none_or(|height| height.rises_above(unmoved)) && (self.site.is_feasible)(&there.x)
+        };
+        !height.rises_above(unmoved) && !HALVINGS.into_iter().any(rises)
+    }
+
+    /// Whether a place is where the point is, but for what its rows tolerate.
+    fn is_beside(&self, x: &[f64]) -> bool {
+        x.iter().zip(self.site.x).zip(self.site.sizes).all(|((there, here), size)| (there - here).abs() <= BESIDE * size)
+    }
+
+    /// The heights on the way outwards; `None` where the objective rises or a limit ends the way.
+    fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<Vec<Height>> {
         let (mut last, origin) = (base, floor.x[lead.pivot]);
+        let mut heights = vec![base];
         for doubling in DOUBLINGS {
             let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= ENOUGH { break } else { return None }
@@ -122,9 +136,10 @@ impl<'a> Valley<'a> {
             if height.value < last.value {
                 last = height;
             }
+            heights.push(height);
             floor = settled;
         }
-        Some((base.value - last.value - base.noise - last.noise).max(0.0))
+        Some(heights)
     }
 
     /// Whether the objective rises, beyond rounding, on the way back: by growing steps, or, where numbers are large, in decades
@@ -181,17 +196,12 @@ impl<'a> Valley<'a> {
     /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
     fn height(&self, floor: &Floor) -> Option<Height> {
         let (objective, bought) = self.value(&floor.x)?;
-        let noise_of = |digits: f64| {
-            // Each by its own: variables moved alike would keep their differences.
-            let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
-            let x: Vec<f64> = floor.x.iter().enumerate().map(moved).collect();
-            let change = |there: (f64, Vec<f64>)| {
-                let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
-                (there.0 - objective).abs() + rows
-            };
-            self.value(&x).map_or(0.0, change)
+        let change = |x: &[f64]| {
+            let there = self.value(x)?;
+            let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
+            Some((there.0 - objective).abs() + rows)
         };
-        let noise = DIGITS.into_iter().map(noise_of).fold(0.0, f64::max);
+        let noise = last_digits(&floor.x, change);
         let value = objective + bought.iter().map(|bought| bought.max(0.0)).sum::<f64>();
         Some(Height { value, noise: noise + ROUNDINGS * objective.abs() })
     }
@@ -222,7 +232,7 @@ mod tests {
         let held: Vec<(usize, f64)> = meta.row_lower.iter().copied().enumerate().collect();
         let is_feasible = |_: &[f64]| true;
         let site = Site { model, x, sizes: &sizes, free: &free, held: &held, multipliers, is_feasible: &is_feasible };
-        Valley::new(site).runs_off(&direction)
+        Valley::new(site).runs_off(&direction).is_some()
     }
 
     #[test]

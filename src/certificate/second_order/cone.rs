@@ -41,6 +41,7 @@ impl<'a> Cone<'a> {
         choice: &Choice,
         build: Build,
     ) -> Result<Self, FactorizationError> {
+        point.in_time()?;
         let (loose, strict) = (choice.loose_variables(), choice.strict_rows());
         let place = places(point.meta().variables(), &loose);
         let scale: Vec<f64> = loose.iter().map(|&j| weight(hessian.size[j]).sqrt().recip()).collect();
@@ -85,6 +86,7 @@ impl<'a> Cone<'a> {
     }
 
     fn factor(&mut self, shift: f64, share: f64, weak: f64) -> Result<bool, FactorizationError> {
+        self.point.in_time()?;
         let (p, m, k) = (self.loose.len(), self.strict, self.weak);
         let diagonal = std::iter::repeat_n(shift, p).chain(std::iter::repeat_n(-DELTA, m)).chain(std::iter::repeat_n(weak, k));
         let entries = diagonal.chain(self.hessian.iter().chain(&self.strict_rows).map(|entry| entry.2));
@@ -97,6 +99,7 @@ impl<'a> Cone<'a> {
         let (first, k) = (self.loose.len() + self.strict, self.weak);
         let mut reduced = Vec::with_capacity(k * k);
         for i in 0..k {
+            self.point.in_time()?;
             let mut right = vec![0.0; first + k];
             right[first + i] = 1.0;
             reduced.extend(self.matrix.solve(&right)?[first..].iter().map(|multiplier| -multiplier));

@@ -61,6 +61,7 @@ impl<'a> Kkt<'a> {
         (hessian, size): (Vec<(u32, u32, f64)>, Vec<f64>),
         build: impl Fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>,
     ) -> Result<Self, FactorizationError> {
+        point.in_time()?;
         let place = places(point.meta().variables(), free);
         let (mut rows, slopes) = (Vec::new(), held.iter().map(|&i| point.slopes[i]).collect());
         for (k, &i) in held.iter().enumerate() {
@@ -80,7 +81,7 @@ impl<'a> Kkt<'a> {
         let size = &self.size;
         let diagonal = size.iter().map(|&size| shift * weight(size)).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        let inertia = self.matrix.factor(entries)?;
+        let inertia = factor(self.point, &mut self.matrix, entries)?;
         Ok(inertia.negative > self.held)
     }
 
@@ -94,7 +95,7 @@ impl<'a> Kkt<'a> {
         }
         let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(DEPENDENT, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
-        let inertia = self.matrix.factor(entries)?;
+        let inertia = factor(self.point, &mut self.matrix, entries)?;
         Ok(inertia.negative < self.held)
     }
 
@@ -107,6 +108,7 @@ impl<'a> Kkt<'a> {
         }
         let mut v: Vec<f64> = (0..self.free.len()).map(scattered).collect();
         for _ in 0..POWER_STEPS {
+            self.point.in_time()?;
             let right =
                 (0..v.len()).map(|k| weight(self.size[k]) * v[k]).chain(std::iter::repeat_n(0.0, self.held)).collect::<Vec<_>>();
             v = self.matrix.solve(&right)?;
@@ -138,6 +140,7 @@ impl<'a> Kkt<'a> {
         let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
         let singles = p.min(most.saturating_sub(quadrants));
         for k in 0..quadrants + singles {
+            self.point.in_time()?;
             let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))).is_multiple_of(2) || k == 0 { 1.0 } else { -1.0 };
             let start = |at: usize| match k.checked_sub(quadrants) {
                 None => sign(at) * scattered(at),
@@ -164,21 +167,21 @@ impl<'a> Kkt<'a> {
     fn factor_shifted(&mut self, shift: f64) -> Result<Inertia, FactorizationError> {
         let diagonal = std::iter::repeat_n(shift, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        self.matrix.factor(entries)
+        factor(self.point, &mut self.matrix, entries)
     }
 
     /// Factorises [S + |S| + I, Aᵀ; A, −δI]: steps with it go downhill and back to the rows, and never far.
     pub(in crate::certificate) fn factor_proximal(&mut self) -> Result<(), FactorizationError> {
         let diagonal = self.size.iter().map(|size| size + 1.0).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        self.matrix.factor(entries).map(|_| ())
+        factor(self.point, &mut self.matrix, entries).map(|_| ())
     }
 
     /// Factorises [I Aᵀ; A −δI]: steps with it are the shortest back to the rows.
     pub(in crate::certificate) fn factor_projection(&mut self) -> Result<(), FactorizationError> {
         let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
-        self.matrix.factor(entries).map(|_| ())
+        factor(self.point, &mut self.matrix, entries).map(|_| ())
     }
 
     /// What row k of A was divided by.
@@ -218,6 +221,11 @@ impl<'a> Kkt<'a> {
         }
         direction
     }
+}
+
+fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
+    point.in_time()?;
+    matrix.factor(entries)
 }
 
 /// Whether two vectors span one line.

@@ -24,7 +24,7 @@ pub(super) fn is_positive(
     (free, held): (&[usize], &[usize]),
     shift: f64,
 ) -> Option<Result<bool, FactorizationError>> {
-    if free.len() + held.len() < FEWEST {
+    if free.len() + held.len() < FEWEST || point.is_over() {
         return None;
     }
     let place = places(point.meta().variables(), free);

@@ -152,11 +152,12 @@ impl Judge<'_> {
             return Ok(Err(format!("{} may be negative", self.problem.variable_name(j))));
         }
         // Minimising −f is maximising f, and the other way round.
-        let negated = negated(&self.problem.objective);
-        let objective = negated.as_ref().unwrap_or(&self.problem.objective);
-        let direct = (self.problem.sense == Sense::Minimize) == negated.is_none();
+        let (mut objective, mut direct) = (self.problem.objective.clone(), self.problem.sense == Sense::Minimize);
+        while let Some(opposite) = negated(&objective) {
+            (objective, direct) = (opposite, !direct);
+        }
         let wanted = if direct { Wanted::LogConvex } else { Wanted::LogConcave };
-        let survey = self.objective(objective)?;
+        let survey = self.objective(&objective)?;
         if !holds(wanted, survey.bend()) {
             return Ok(Err(words("the objective", &survey, wanted)));
         }

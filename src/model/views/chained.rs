@@ -33,8 +33,9 @@ impl<F: Substitution, S: Substitution> Substitution for Chained<F, S> {
         self.first.outward_objective(self.second.outward_objective(value))
     }
 
-    fn outward_multipliers(&self, y: &[f64]) -> Option<Vec<f64>> {
-        self.first.outward_multipliers(&self.second.outward_multipliers(y)?)
+    fn outward_multipliers(&self, user: &dyn Model, z: &[f64], y: &[f64]) -> Option<Vec<f64>> {
+        let between = self.second.outward_multipliers(self.first.model(), z, y)?;
+        self.first.outward_multipliers(user, &self.second.outward(z), &between)
     }
 
     fn vanishing(&self, x: &[f64]) -> Vec<(usize, usize)> {

@@ -163,6 +163,10 @@ impl Substitution for FlangeSubstitution {
         let gone = |&(h, hw): &(usize, usize)| x[h] - x[hw] <= 2.0 * self.meta.lower[h];
         self.replaced.iter().filter_map(pair).filter(gone).collect()
     }
+
+    fn outward_multipliers(&self, user: &dyn Model, _z: &[f64], y: &[f64]) -> Option<Vec<f64>> {
+        Some(y.get(..user.meta().rows())?.to_vec())
+    }
 }
 
 impl Model for FlangeSubstitution {

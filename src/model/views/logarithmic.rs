@@ -151,6 +151,62 @@ impl Substitution for Logarithmic {
         let upper = &self.model.meta().upper;
         x.iter().zip(upper).map(|(&x, &upper)| positive(x, upper).ln()).collect()
     }
+
+    /// The user's rows say the same as these, and so their gradients point the same way where they are active: λ_i·∇c_i =
+    /// λ'_i·∇c'_i, over relative changes of the variables; likewise the objectives.
+    fn outward_multipliers(&self, user: &dyn Model, z: &[f64], y: &[f64]) -> Option<Vec<f64>> {
+        if user.meta().rows() != self.monomial.len() || y.len() != self.monomial.len() {
+            return None;
+        }
+        let x = self.outward(z);
+        let (own, users) = (Slopes::of(self.model.as_ref(), &x)?, Slopes::of(user, &x)?);
+        let factor = Slopes::share(&own.objective, &users.objective)?;
+        let one = |i: usize| {
+            if y[i] == 0.0 {
+                return Some(0.0);
+            }
+            let logarithm = if self.monomial[i] { own.values[i].recip() } else { 1.0 };
+            let share = Slopes::share(&users.row(user.meta(), i), &own.row(self.model.meta(), i))?;
+            Some(y[i] * factor * logarithm * share)
+        };
+        (0..y.len()).map(one).collect()
+    }
+}
+
+/// Values and slopes of a model at x, over relative changes of its variables.
+struct Slopes {
+    x: Vec<f64>,
+    objective: Vec<f64>,
+    values: Vec<f64>,
+    jacobian: Vec<f64>,
+}
+
+impl Slopes {
+    fn of(model: &dyn Model, x: &[f64]) -> Option<Slopes> {
+        let meta = model.meta();
+        let (mut objective, mut values, mut jacobian) =
+            (vec![0.0; x.len()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+        model.gradient(x, &mut objective).ok()?;
+        model.constraints(x, &mut values).ok()?;
+        model.jacobian(x, &mut jacobian).ok()?;
+        objective.iter_mut().zip(x).for_each(|(slope, x)| *slope *= x);
+        Some(Slopes { x: x.to_vec(), objective, values, jacobian })
+    }
+
+    fn row(&self, meta: &Meta, i: usize) -> Vec<f64> {
+        let mut row = vec![0.0; self.x.len()];
+        for at in meta.jacobian.range(i) {
+            let j = meta.jacobian.columns[at] as usize;
+            row[j] = self.jacobian[at] * self.x[j];
+        }
+        row
+    }
+
+    /// t of the t·a that is nearest to b; `None` where a is no direction.
+    fn share(a: &[f64], b: &[f64]) -> Option<f64> {
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        Some(product(a, b) / product(a, a)).filter(|share| share.is_finite())
+    }
 }
 
 impl Model for Logarithmic {
@@ -194,6 +250,20 @@ mod tests {
         assert!((values[0] - (1.0f64 / 12.0).ln()).abs() < 1e-14);
         assert_eq!(log.meta().row_lower[0], 1e-3f64.ln());
         assert_eq!(log.outward(&log.meta().lower), [0.1, 0.1, 0.0]);
+    }
+
+    #[test]
+    fn multipliers_are_those_of_the_users_rows() {
+        let log = Logarithmic::new(Arc::new(model(0.1)), vec![true, false]).unwrap();
+        // The same problem, its objective and second row in other units.
+        let user = Sample::new(&[0.6, 0.4, 0.2], |x| (x[0] * x[1] * 2.0 + x[2] / x[0] + (x[0] * x[1] * x[2]).sqrt()) * 5.0)
+            .row(1e-3, f64::INFINITY, |x| x[0] * x[1].powi(3) / 12.0)
+            .row(f64::NEG_INFINITY, 10.0, |x| (x[0] / x[1] + x[2] * x[2] * 0.5) * 10.0);
+        let x = [0.5, 0.3, 0.4];
+        let found = log.outward_multipliers(&user, &log.inward(&x), &[-0.2, 0.3]).unwrap();
+        let monomial = 0.5 * 0.3f64.powi(3) / 12.0;
+        assert!((found[0] - 5.0 * -0.2 / monomial).abs() < 1e-9 * found[0].abs(), "{found:?}");
+        assert!((found[1] - 5.0 * 0.3 / 10.0).abs() < 1e-12, "{found:?}");
     }
 
     #[test]

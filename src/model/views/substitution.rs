@@ -18,8 +18,9 @@ pub trait Substitution: Sync {
         value
     }
 
-    /// Row multipliers of the user's model from those of the substituted one, where they say anything of each other.
-    fn outward_multipliers(&self, _y: &[f64]) -> Option<Vec<f64>> {
+    /// Row multipliers of the user's model at x(z) from those of the substituted one at z, where they say anything of each other:
+    /// a witness, worth what the sums computed from it say.
+    fn outward_multipliers(&self, _user: &dyn Model, _z: &[f64], _y: &[f64]) -> Option<Vec<f64>> {
         None
     }
 
@@ -47,8 +48,8 @@ impl<S: Substitution + Send + ?Sized> Substitution for std::sync::Arc<S> {
         (**self).outward_objective(value)
     }
 
-    fn outward_multipliers(&self, y: &[f64]) -> Option<Vec<f64>> {
-        (**self).outward_multipliers(y)
+    fn outward_multipliers(&self, user: &dyn Model, z: &[f64], y: &[f64]) -> Option<Vec<f64>> {
+        (**self).outward_multipliers(user, z, y)
     }
 
     fn vanishing(&self, x: &[f64]) -> Vec<(usize, usize)> {
