@@ -184,18 +184,21 @@ impl Means<'_> {
         mut run: impl FnMut(&Task<'_>) -> Outcome,
     ) -> (Outcome, Option<Subject>) {
         let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.nearby(rest, settings, x, &self.of_rounds());
-        if let Some(foreseen) = coinciding::foresee(subject, task.start, &rounds) {
+        let foreseen = coinciding::foresee(subject, task.settings, task.start, &rounds);
+        let left = self.remaining.settings(task.settings);
+        let task = &Task { settings: left.as_ref().unwrap_or(task.settings), ..*task };
+        if let Some(foreseen) = foreseen {
             let start = foreseen.subject.completed(foreseen.outcome.x.clone());
             let own = foreseen.subject.task(&start, self.interrupt);
-            let all = run(&Task { settings: task.settings, starts: task.starts.max(1), ..own });
-            let all = present(&foreseen.subject, all);
-            if let Some(settled) = foreseen.compared(subject, Some(all)) {
+            let all = left.is_some().then(|| run(&Task { settings: task.settings, starts: task.starts.max(1), ..own }));
+            let all = all.map(|all| present(&foreseen.subject, all));
+            if let Some(settled) = foreseen.compared(subject, all) {
                 return (settled.outcome, Some(settled.subject));
             }
         }
         let outcome = present(subject, run(task));
-        let again = |rest: &Subject, x: &[f64]| self.nearby(rest, &rest.settings, x, self.choices);
-        let coinciding = coinciding::exchange(subject, &outcome, &rounds).and_then(|found| {
+        let again = |rest: &Subject, x: &[f64]| self.nearby(rest, task.settings, x, self.choices);
+        let coinciding = coinciding::exchange(subject, task.settings, &outcome, &rounds).and_then(|found| {
             let all = again(&found.subject, &found.outcome.x);
             found.compared(subject, all)
         });

@@ -36,18 +36,17 @@ pub(super) struct Coinciding {
 type Again<'a> = &'a dyn Fn(&Subject, &Settings, &[f64]) -> Option<Outcome>;
 
 /// Comes to the optimum before anything is logged, where eigenvalues are limited and come together there; `None` where nothing is certified so.
-pub(super) fn foresee(subject: &Subject, x: &[f64], again: Again<'_>) -> Option<Coinciding> {
+pub(super) fn foresee(subject: &Subject, settings: &Settings, x: &[f64], again: Again<'_>) -> Option<Coinciding> {
     if limited(subject.problem()).is_empty() {
         return None;
     }
-    let settings = &subject.settings;
     let few = Settings { max_iterations: settings.max_iterations.min(ITERATIONS), ..settings.clone() };
     let near = again(subject, &few, x)?;
-    exchange(subject, &near, again).filter(|found| found.is_certified(subject))
+    exchange(subject, settings, &near, again).filter(|found| found.is_certified(subject))
 }
 
 /// Solves again from the point of an outcome with rows for all combinations of modes that coincide there; `None` where none do.
-pub(super) fn exchange(subject: &Subject, outcome: &Outcome, again: Again<'_>) -> Option<Coinciding> {
+pub(super) fn exchange(subject: &Subject, settings: &Settings, outcome: &Outcome, again: Again<'_>) -> Option<Coinciding> {
     if !matches!(outcome.status, Status::Certified | Status::Uncertified | Status::LimitReached) || outcome.objective.is_none() {
         return None;
     }
@@ -61,7 +60,7 @@ pub(super) fn exchange(subject: &Subject, outcome: &Outcome, again: Again<'_>) -
     for _ in 0..ROUNDS {
         let refined = refined_by(subject, &clusters, &mut cuts, &mut replaced)?;
         let x = last.as_ref().map_or(&outcome.x, |found| &found.outcome.x);
-        let Some(found) = again(&refined, &subject.settings, x).filter(|found| found.objective.is_some()) else { break };
+        let Some(found) = again(&refined, settings, x).filter(|found| found.objective.is_some()) else { break };
         let next = self::clusters(subject, &found.x).unwrap_or_default();
         let coinciding = last.insert(Coinciding { subject: refined, outcome: found, words: words(&clusters) });
         if next.is_empty() || coinciding.is_certified(subject) {

@@ -7,6 +7,7 @@
 
 mod directions;
 mod energies;
+mod smooth;
 mod with_modes;
 
 pub(super) use with_modes::WithModes;
@@ -20,6 +21,7 @@ use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use energies::{Derivatives, Energies};
+use smooth::{Smooth, chained, turned};
 use std::sync::Arc;
 
 /// Of two values of μ that are nearer than this, relative to the larger, it cannot be said which mode is which: what bends one of them
@@ -56,13 +58,6 @@ struct Solution {
 struct System {
     s: Matrix,
     complement: Complement,
-}
-
-/// A value and its derivatives along design and displacements.
-struct Smooth {
-    slope: Vec<f64>,
-    /// By (z, z') with z' ≤ z.
-    curvature: Vec<(usize, usize, f64)>,
 }
 
 impl Modes {
@@ -252,7 +247,7 @@ impl Solved<'_> {
                 curvature.push((i, j, -slope[i] * stiffness[j] - slope[j] * stiffness[i]));
             }
         }
-        turned(&complement, &mixed, &mut curvature)?;
+        turned(&complement, &mixed, &mut curvature).map_err(unsolved)?;
         Ok(chained(slope, curvature, &active, first, second))
     }
 
@@ -272,38 +267,9 @@ impl Solved<'_> {
         }
         let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
         let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
-        turned(complement, &mixed, &mut curvature)?;
+        turned(complement, &mixed, &mut curvature).map_err(unsolved)?;
         Ok(chained(slope, curvature, &active, first, second))
     }
-}
-
-/// Adds −2·(S_z w)ᵀ·P·(S_z' w), by which a mode turns with the design, to second derivatives.
-fn turned(
-    complement: &Complement,
-    mixed: &[Vec<(usize, f64)>],
-    curvature: &mut Vec<(usize, usize, f64)>,
-) -> Result<(), EvaluationError> {
-    let order = complement.order();
-    let moving: Vec<usize> = (0..mixed.len()).filter(|&z| !mixed[z].is_empty()).collect();
-    for (at, &i) in moving.iter().enumerate() {
-        let mut column = vec![0.0; order];
-        mixed[i].iter().for_each(|&(row, value)| column[row] = value);
-        let projected = complement.project(&column).map_err(unsolved)?;
-        for &j in &moving[..=at] {
-            let seen: f64 = mixed[j].iter().map(|&(row, value)| value * projected[row]).sum();
-            curvature.push((i, j, -2.0 * seen));
-        }
-    }
-    Ok(())
-}
-
-/// g(m(z)) from the derivatives of m and g.
-fn chained(slope: Vec<f64>, mut curvature: Vec<(usize, usize, f64)>, active: &[usize], first: f64, second: f64) -> Smooth {
-    curvature.iter_mut().for_each(|(.., value)| *value *= first);
-    for (at, &i) in active.iter().enumerate() {
-        curvature.extend(active[..=at].iter().map(|&j| (i, j, second * slope[i] * slope[j])));
-    }
-    Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature }
 }
 
 /// The eigenvalue that users know, [`NEVER`] where there is none.
