@@ -44,6 +44,7 @@
 //! | `input` | the TOML file and its CSV tables become a checked `problem::Problem` |
 //! | `log`, `report` | iteration CSV; tables, JSON, terminal |
 //! | [`crosscheck`] | several backends, one verdict |
+//! | `discrete` | sizes from lists: branch and bound |
 //! | [`backends`] | NLopt and argmin behind one trait |
 //! | [`certificate`] | the proof at a point, by code that knows no solver |
 //! | `recession` | does the objective fall for ever? |
@@ -55,6 +56,7 @@
 //! | `expression` | parse, differentiate, evaluate |
 //! | `linear_algebra` | symmetric factorisations with inertia, patterns, partitions, null spaces, least squares with signs |
 //! | `files` | inputs within limits, outputs whole and never in an input's place |
+//! | `units` | units of quantities, the algebra of dimensions |
 //! | `geometry`, `splines`, `math`, `mesh` | mathematics, geometry and quad meshes |
 //!
 //! What is meant for programs is on this page, in [`model`], [`certificate`], the kinds of [`sections`], [`backends`] (to write one) and
@@ -65,6 +67,8 @@ pub mod api;
 pub mod backends;
 pub mod certificate;
 pub mod crosscheck;
+#[doc(hidden)]
+pub mod discrete;
 #[doc(hidden)]
 pub mod expression;
 #[doc(hidden)]
@@ -99,6 +103,8 @@ pub mod solvers;
 pub mod splines;
 #[doc(hidden)]
 pub mod structure;
+#[doc(hidden)]
+pub mod units;
 
 pub use api::{Answer, Constraint, Problem, Rib, Section, Value, certify, solve};
 pub use problem::Settings;

@@ -9,7 +9,7 @@ const FLOORS: &[&[&str]] = &[
     &["cli", "api"],
     &["run"],
     &["input", "report", "log"],
-    &["crosscheck"],
+    &["crosscheck", "discrete"],
     &["backends", "certificate"],
     &["recession", "solvers"],
     &["model"],
@@ -18,7 +18,7 @@ const FLOORS: &[&[&str]] = &[
     &["ribs"],
     &["sections"],
     &["geometry", "splines", "expression"],
-    &["linear_algebra", "math", "files"],
+    &["linear_algebra", "math", "files", "units"],
 ];
 
 /// Arrows between rooms of one floor that the sketch allows.
@@ -30,9 +30,12 @@ const LIBRARIES: &[(&str, &[&str])] = &[
     ("argmin", &["backends/argmin"]),
     ("toml", &["input"]),
     ("clap", &["cli"]),
+    ("clap_complete", &["cli"]),
+    ("clap_mangen", &["cli"]),
     ("ctrlc", &["cli"]),
     ("csv", &["input", "log", "report", "mesh"]),
     ("feral", &["linear_algebra"]),
+    ("maud", &["report"]),
 ];
 
 #[test]

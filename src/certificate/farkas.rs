@@ -41,7 +41,7 @@ pub fn contradiction(
     let mut inside = x.to_vec();
     model.meta().clamp(&mut inside);
     let point = Point::new(&origin, &inside)?;
-    let rows = Rows::new(&point, convex);
+    let rows = Rows::new(&point, y, convex);
     let mut best: Option<Contradiction> = None;
     let given = rows.usable(y);
     for multipliers in [rows.balanced(&given), given] {
@@ -56,18 +56,26 @@ pub fn contradiction(
 struct Rows<'p, 'a> {
     point: &'p Point<'a>,
     convex: bool,
-    /// |x_j|, or 1 where that is 0.
+    /// The larger of |x_j|, or 1 where that is 0, and what row terms there are would make of it.
     size: Vec<f64>,
     /// max(|limit|, max_j |∂c_i/∂x_j·x_j|)
     terms: Vec<f64>,
 }
 
 impl<'p, 'a> Rows<'p, 'a> {
-    fn new(point: &'p Point<'a>, convex: bool) -> Self {
+    fn new(point: &'p Point<'a>, y: &[f64], convex: bool) -> Self {
         let term = |i: usize| point.terms[i].max(scales::largest_limit(point.meta(), i)).max(f64::MIN_POSITIVE);
-        let terms = (0..point.rows.len()).map(term);
-        let size = point.x.iter().map(|x| if *x == 0.0 { 1.0 } else { x.abs() }).collect();
-        Rows { point, convex, size, terms: terms.collect() }
+        let terms: Vec<f64> = (0..point.rows.len()).map(term).collect();
+        let mut told = vec![f64::INFINITY; point.x.len()];
+        for (i, _) in y.iter().enumerate().filter(|(_, y)| **y != 0.0) {
+            for at in point.meta().jacobian.range(i).filter(|&at| point.jacobian[at] != 0.0) {
+                let j = point.meta().jacobian.columns[at] as usize;
+                told[j] = told[j].min(terms[i] / point.jacobian[at].abs());
+            }
+        }
+        let own = |x: f64| if x == 0.0 { 1.0 } else { x.abs() };
+        let size = point.x.iter().zip(told).map(|(&x, told)| if told.is_finite() { told.max(own(x)) } else { own(x) });
+        Rows { point, convex, size: size.collect(), terms }
     }
 
     /// `y` without what has no limit on its side or is not known to be convex.

@@ -1,7 +1,7 @@
 //! Variables that run away: the point passes only because the objective flattens out, and would go on falling for ever (exp(x)
 //! towards −∞), or because a term has no value at the bound it falls towards. Such an infimum is not attained.
 
-use super::feasibility::worst_violation;
+use super::feasibility::{self, worst_violation};
 use super::higher_order::Trial;
 use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
@@ -17,6 +17,8 @@ const FOLLOWED: usize = 12;
 /// Variables followed from a point that is not stationary, or because they are so many of their sizes away from the start.
 const OUTWARDS: usize = 3;
 const FAR: f64 = 1e3;
+/// Gradients, each divided by its largest entry in units of the variables' sizes, are parallel where they differ by no more.
+const PARALLEL: f64 = 1e-9;
 /// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
 /// matrices of order N takes N³ operations, and some thousand steps are taken.
 pub(super) const LARGEST: usize = 120;
@@ -111,7 +113,11 @@ fn follow(
     tolerances: &Tolerances,
 ) -> Option<(Vec<f64>, Fall)> {
     let is_feasible = |x: &[f64]| {
-        !point.is_over() && Point::new(point.origin, x).is_ok_and(|there| worst_violation(&there).1 <= tolerances.constraint)
+        let meets = |there: Point<'_>| {
+            worst_violation(&there).1 <= tolerances.constraint
+                || feasibility::of(&there, tolerances.constraint).infeasibility <= tolerances.constraint
+        };
+        !point.is_over() && Point::new(point.origin, x).is_ok_and(meets)
     };
     let site = Site {
         model: &point.origin.model,
@@ -128,9 +134,54 @@ fn follow(
     both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
-/// Rows with the limits they are held to.
+/// Rows with the limits they are held to: of several whose gradients point the same way the one that is missed most, or the equality.
+/// The others follow from it, and held to their own limits contradict it.
 pub(super) fn held_rows(point: &Point<'_>, rows: Vec<usize>) -> Vec<(usize, f64)> {
-    rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite()).collect()
+    let with_limit = rows.into_iter().map(|i| (i, point.nearest_limit(i))).filter(|held| held.1.is_finite());
+    let mut kept: Vec<(usize, f64)> = Vec::new();
+    for row in with_limit {
+        match kept.iter_mut().find(|other| is_alike(point, other.0, row.0)) {
+            Some(other) if missed(point, row) > missed(point, *other) => *other = row,
+            Some(_) => {}
+            None => kept.push(row),
+        }
+    }
+    kept.sort_unstable_by_key(|held| held.0);
+    kept
+}
+
+/// By how much a row misses its limit, outwards, in units of its slope; an equality more than any other.
+fn missed(point: &Point<'_>, (i, limit): (usize, f64)) -> f64 {
+    let meta = point.meta();
+    if meta.row_lower[i] == meta.row_upper[i] {
+        return f64::INFINITY;
+    }
+    let outwards = if limit == meta.row_lower[i] { limit - point.rows[i] } else { point.rows[i] - limit };
+    outwards / point.slopes[i].max(f64::MIN_POSITIVE)
+}
+
+/// Whether two rows push the same way: gradients that are parallel, towards limits on the same side.
+fn is_alike(point: &Point<'_>, i: usize, k: usize) -> bool {
+    let outwards = |i: usize| {
+        let way = if point.nearest_limit(i) == point.meta().row_lower[i] { -1.0 } else { 1.0 };
+        point.row_in_sizes(i).filter(|entry| entry.1 != 0.0).map(move |(j, entry)| (j, way * entry))
+    };
+    let is_equality = |i: usize| point.meta().row_lower[i] == point.meta().row_upper[i];
+    let (mut same, mut opposite) = (true, is_equality(i) || is_equality(k));
+    let (mut one, mut other) = (outwards(i), outwards(k));
+    loop {
+        match (one.next(), other.next()) {
+            (None, None) => return same || opposite,
+            (Some((j, a)), Some((l, b))) if j == l => {
+                same &= (a - b).abs() <= PARALLEL;
+                opposite &= (a + b).abs() <= PARALLEL;
+            }
+            _ => return false,
+        }
+        if !same && !opposite {
+            return false;
+        }
+    }
 }
 
 /// The variables that take part in a direction.

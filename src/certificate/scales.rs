@@ -9,8 +9,8 @@ use crate::model::{Meta, Model};
 const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
 
 /// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
-/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound, or 1), and of
-/// bounds on both sides. A size that is too small makes a test stricter, never laxer.
+/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound), and of
+/// bounds on both sides; 1 where none of these tells. A size that is too small makes a test stricter, never laxer.
 pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
     let known = known_sizes(meta, jacobian);
     let size = |(j, &x): (usize, &f64)| {
@@ -23,7 +23,7 @@ pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f6
 
 /// What is known of the variables' sizes but for the point itself, see [`variable_sizes`].
 pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
-    let mut known: Vec<f64> = (0..meta.variables()).map(|j| declared_size(meta, j)).collect();
+    let mut known: Vec<f64> = (0..meta.variables()).map(|j| declared_size(meta, j).unwrap_or(f64::INFINITY)).collect();
     for i in 0..meta.rows() {
         let limit = largest_limit(meta, i);
         if limit == 0.0 {
@@ -36,17 +36,18 @@ pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
             }
         }
     }
-    known
+    // For want of anything better.
+    known.into_iter().map(|size| if size.is_finite() { size } else { 1.0 }).collect()
 }
 
-/// The magnitude of the start that was given, else of a bound, else 1; at the most that of bounds on both sides.
-fn declared_size(meta: &Meta, j: usize) -> f64 {
+/// The magnitude of the start that was given, else of a bound; at the most that of bounds on both sides.
+fn declared_size(meta: &Meta, j: usize) -> Option<f64> {
     let is_size = |size: &f64| *size > 0.0 && size.is_finite();
     let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
     let given = meta.typical.get(j).copied().filter(is_size);
-    let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min)).unwrap_or(1.0);
+    let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min))?;
     let within = bounds[0].max(bounds[1]);
-    if within > 0.0 { size.min(within) } else { size }
+    Some(if within > 0.0 { size.min(within) } else { size })
 }
 
 /// Which variables have no size but the 1 that stands for want of anything better: none at the point, no start, no bound and no

@@ -1,19 +1,26 @@
 //! What can be typed.
 
 mod examples;
+mod values;
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
-use ribopt::problem::settings::BACKENDS;
 
 use super::mesh::Stage;
 use examples::{BEGINNING, EXAMPLES, EXIT_CODES, SECTION_EXAMPLES};
+use values::{backend_names, seconds, tolerance};
+
+/// What `--version` says: the features this program was built with.
+const LONG_VERSION: &str = if cfg!(feature = "nlopt") {
+    concat!(env!("CARGO_PKG_VERSION"), "\nfeatures: nlopt\nbackends: nlopt, argmin")
+} else {
+    concat!(env!("CARGO_PKG_VERSION"), "\nfeatures: none\nbackends: argmin")
+};
 
 /// Sizes structural ribs: the lightest rectangular ribs and H beams that still meet their limits, with a proof.
 #[derive(Debug, Parser)]
-#[command(name = "ribopt", version, max_term_width = 110, after_help = BEGINNING)]
+#[command(name = "ribopt", version, long_version = LONG_VERSION, max_term_width = 110, after_help = BEGINNING)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
@@ -34,6 +41,14 @@ pub enum Command {
     Analyse(Analyse),
     /// The certificate for a point found elsewhere
     Verify(Verify),
+    /// One HTML page about a run, from the files it left: verdict, what governs, utilisation, sizes, pictures, input
+    Report {
+        /// The folder of a run, or its result.json
+        result: PathBuf,
+        /// The page; default: report.html beside the result
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Properties of cross-sections, and a picture of them
     #[command(after_help = SECTION_EXAMPLES)]
     Section(Section),
@@ -50,6 +65,16 @@ pub enum Command {
     },
     /// JSON Schema of the problem file, for completion in editors
     Schema,
+    /// Completions for a shell, on standard output
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Manual pages, one per command, into a folder
+    Man {
+        /// The folder
+        folder: PathBuf,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -88,6 +113,9 @@ pub struct Solve {
     /// shape and the courses of its forces, too (also as VTU)
     #[arg(long)]
     pub plot: bool,
+    /// Leave report.html as well, with all pictures: one page to read, print and hand on
+    #[arg(long)]
+    pub report: bool,
     /// No table and no summary; errors and warnings only
     #[arg(long, short)]
     pub quiet: bool,
@@ -195,6 +223,9 @@ pub struct Check {
     /// Print the rows that `[[checks]]` state, with what they assume
     #[arg(long, conflicts_with = "json")]
     pub rows: bool,
+    /// Print what the file's numbers measure, and what does not agree
+    #[arg(long, conflicts_with_all = ["json", "rows"])]
+    pub units: bool,
 }
 
 #[derive(Debug, Args)]
@@ -231,21 +262,6 @@ pub struct Analyse {
     pub changes: Changes,
 }
 
-/// The names a backend may have, built in or not.
-fn backend_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(BACKENDS.iter().map(|backend| backend.name))
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "a number is expected, such as 1e-6".to_string())?;
-    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("a tolerance lies between 0 and 1, such as 1e-6".into()) }
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "a number of seconds is expected".to_string())?;
-    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("a number of seconds, 0 or more, is expected".into()) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,21 +278,5 @@ mod tests {
         for name in ribopt::input::examples() {
             assert!(listed(name), "{name}");
         }
-    }
-
-    #[test]
-    fn tolerances_outside_0_to_1_are_refused() {
-        for bad in ["0", "1", "-1e-6", "nan", "inf", "x"] {
-            assert!(tolerance(bad).is_err(), "{bad}");
-        }
-        assert_eq!(tolerance("1e-8"), Ok(1e-8));
-    }
-
-    #[test]
-    fn seconds_are_finite_and_not_negative() {
-        for bad in ["-1", "-0.1", "nan", "inf", ""] {
-            assert!(seconds(bad).is_err(), "{bad}");
-        }
-        assert_eq!((seconds("0.5"), seconds("0")), (Ok(0.5), Ok(0.0)));
     }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::arguments::Check;
 use super::failure::Failure;
-use super::{output, reading};
+use super::{output, reading, units};
 use ribopt::model::EvaluationError;
 use ribopt::model::derivative_check::DerivativeCheck;
 use ribopt::report::checks;
@@ -19,6 +19,10 @@ use ribopt::run::{Subject, check::check};
 pub fn run(arguments: &Check) -> Result<u8, Failure> {
     let subject = reading::read(&arguments.file, &arguments.changes.set, false)?;
     output::tell(&subject.warnings);
+    if arguments.units {
+        output::print(|out| units::write(&subject.dimensions, out))?;
+        return Ok(u8::from(!subject.dimensions.doubts.is_empty()));
+    }
     let result = check(&subject);
     if arguments.json {
         output::print(|out| write_value(&Found::of(&subject, result.as_ref().ok()), out))?;

@@ -8,12 +8,14 @@ mod compare;
 mod failure;
 mod interrupt;
 mod live_table;
+mod manual;
 mod mesh;
 mod output;
 mod reading;
 mod reference;
 mod section;
 mod solve;
+mod units;
 mod verify;
 
 use std::ffi::OsString;
@@ -46,10 +48,13 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Check(arguments) => check::run(&arguments),
         Command::Analyse(arguments) => analyse::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Report { result, output } => reference::page(&result, output.as_deref()),
         Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),
         Command::Mesh { stage } => mesh::run(&stage),
         Command::Schema => reference::schema(),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { folder } => manual::pages(&folder),
     }
 }
 

@@ -1,9 +1,12 @@
-//! `ribopt new` and `ribopt schema`: what a problem file looks like.
+//! `ribopt new` and `ribopt schema`: what a problem file looks like; `ribopt report`: what a run came to.
+
+use std::path::Path;
 
 use super::failure::Failure;
 use super::output;
 use ribopt::input;
 use ribopt::report::result::write_value;
+use ribopt::run::report::report;
 
 /// Prints a commented example.
 pub fn example(kind: Option<&str>) -> Result<u8, Failure> {
@@ -15,5 +18,12 @@ pub fn example(kind: Option<&str>) -> Result<u8, Failure> {
 /// Prints the JSON Schema of problem files.
 pub fn schema() -> Result<u8, Failure> {
     output::print(|out| write_value(&input::schema(), out))?;
+    Ok(0)
+}
+
+/// Writes the page about a run and says where it is.
+pub fn page(result: &Path, out: Option<&Path>) -> Result<u8, Failure> {
+    let written = report(result, out)?;
+    output::print(|out| writeln!(out, "report: {}", written.display()))?;
     Ok(0)
 }

@@ -11,6 +11,7 @@ use ribopt::report::number::short;
 use ribopt::report::text::count;
 use ribopt::report::{result, summary};
 use ribopt::run::network::{self, Network};
+use ribopt::run::report::report;
 use ribopt::run::solve::{Request, Solved, solve};
 use ribopt::run::{RunError, Subject, Watcher, choice};
 
@@ -32,7 +33,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
         start: start.as_ref(),
         inputs: &inputs,
         starts: arguments.starts.map_or_else(|| subject.usual_starts(), |starts| starts as usize),
-        plot: arguments.plot,
+        plot: arguments.plot || arguments.report,
         interrupt: Some(interrupt::flag()),
     };
     let mut table = live_table::on_terminal(arguments.quiet);
@@ -51,6 +52,12 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     }
     if let Some(network) = network {
         draw(arguments, &subject, &solved, &network)?;
+    }
+    if arguments.report {
+        let written = report(solved.folder(), None)?;
+        if !(arguments.json || arguments.quiet) {
+            output::print(|out| writeln!(out, "report: {}", written.display()))?;
+        }
     }
     Ok(solved.outcome.exit_code())
 }
@@ -87,7 +94,8 @@ fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Fai
 /// known.
 fn network(arguments: &Solve, subject: &Subject) -> Result<Option<Network>, RunError> {
     arguments.solids.iter().try_for_each(|out| network::check_ending(out))?;
-    let wanted = !arguments.solids.is_empty() || arguments.plot && Network::is_known(&arguments.file, subject.problem());
+    let wanted = !arguments.solids.is_empty()
+        || (arguments.plot || arguments.report) && Network::is_known(&arguments.file, subject.problem());
     Ok(wanted.then(|| Network::beside(&arguments.file, subject.problem())).transpose()?)
 }
 
@@ -107,7 +115,7 @@ fn draw(arguments: &Solve, subject: &Subject, solved: &Solved, network: &Network
             short(report.overlap_volume)
         ));
     }
-    if arguments.plot {
+    if arguments.plot || arguments.report {
         let out = solved.folder().join("network.svg");
         sized.write_picture(&subject.about, &out).map_err(RunError::from)?;
         lines.push(format!("picture: {}", out.display()));

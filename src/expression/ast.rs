@@ -2,6 +2,7 @@
 
 use super::Span;
 use super::operators::{Binary, Comparison, Fold, Unary};
+use crate::units::Unit;
 
 /// One node and where it stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,12 @@ pub struct Ast {
 pub enum AstKind {
     /// A literal number (finite).
     Number(f64),
+    /// `12 kN/m`: a number, the unit, and the unit as it is written.
+    Quantity(f64, Box<Unit>, Box<str>),
+    /// `value(fck, "MPa")`: how many of a unit something is.
+    ValueIn(Box<Ast>, Box<Unit>),
+    /// `quantity(0.3*x, "MPa")`: as many of a unit as a plain number says.
+    OfUnit(Box<Ast>, Box<Unit>),
     /// `"L0"`: text, in conditions only.
     Text(String),
     /// `depth`, `support.Ix`, `from.b`, `pi`: the dotted parts.
@@ -38,6 +45,17 @@ pub enum AstKind {
         /// Which items; all when left out.
         filter: Option<Box<Condition>>,
         /// The value of one item.
+        body: Box<Ast>,
+    },
+    /// `sum(i in 1..N: c[i]*x[i])`: once per whole number of a range.
+    OverRange {
+        /// How the values are joined.
+        fold: Fold,
+        /// The name that stands for the number.
+        index: String,
+        /// The first and the last number.
+        ends: Box<[Ast; 2]>,
+        /// The value at one number.
         body: Box<Ast>,
     },
     /// Any other call, by name (`profile(depth, 0.25)`): resolved later.

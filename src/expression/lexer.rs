@@ -2,11 +2,14 @@
 
 use super::Span;
 use super::SyntaxError;
+use crate::units::{self, Unit};
 
 /// One word of the language.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Word<'a> {
     Number(f64),
+    /// The unit of the number before it.
+    Unit(Unit, &'a str),
     /// A name with its dots: `support.Ix`.
     Name(&'a str),
     /// Text between quotes, without them.
@@ -23,10 +26,11 @@ pub(super) struct Token<'a> {
 }
 
 /// Longer ones first, so that `<=` is not read as `<`.
-const SYMBOLS: [&str; 18] = ["<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
+const SYMBOLS: [&str; 19] = ["..", "<=", ">=", "==", "!=", "<", ">", "=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", ":"];
 
 /// Signs other languages use, and what to write instead.
-const FOREIGN: [(&str, &str); 19] = [
+const FOREIGN: [(&str, &str); 20] = [
+    ("°C", "K: temperatures are differences"),
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
@@ -108,12 +112,35 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let length = number_length(rest.as_bytes());
         match rest[..length].parse::<f64>() {
-            Ok(value) if value.is_finite() => self.push(Word::Number(value), length),
+            Ok(value) if value.is_finite() => {
+                self.push(Word::Number(value), length);
+                self.unit();
+            }
             _ => {
                 let message = format!("the number `{}` is too large", &rest[..length]);
                 let span = self.take(length);
                 self.mistakes.push(SyntaxError::new(span, message).help("the largest number is about 1.8e308"));
             }
+        }
+    }
+
+    /// The unit of the number just read, where one follows.
+    fn unit(&mut self) {
+        let rest = self.rest();
+        let blanks = rest.len() - rest.trim_start().len();
+        match units::scan(&rest[blanks..]) {
+            Some(Ok((length, unit))) => {
+                self.at += blanks;
+                self.push(Word::Unit(unit, &rest[blanks..blanks + length]), length);
+            }
+            Some(Err(error)) => {
+                self.at += blanks;
+                let start = self.at;
+                let span = Span { start: start + error.start, end: start + error.end };
+                self.at = span.end;
+                self.mistakes.push(SyntaxError::new(span, error.message).help(error.help));
+            }
+            None => {}
         }
     }
 
@@ -125,7 +152,7 @@ impl<'a> Lexer<'a> {
         }
         let dot = self.at + length;
         self.push(Word::Name(&rest[..length]), length);
-        if rest[length..].starts_with('.') {
+        if rest[length..].starts_with('.') && !rest[length..].starts_with("..") {
             let span = Span { start: dot, end: dot + 1 };
             self.at = dot + 1;
             self.mistakes.push(SyntaxError::new(span, "expected a name after the dot").help("as in support.Ix"));
@@ -147,7 +174,7 @@ impl<'a> Lexer<'a> {
 
     fn foreign(&mut self, sign: &str, instead: &str) {
         let span = self.take(sign.len());
-        self.mistakes.push(SyntaxError::new(span, format!("`{sign}` is not known here")).help(format!("write `{instead}`")));
+        self.mistakes.push(SyntaxError::new(span, format!("`{sign}` is not known here")).help(said(instead)));
     }
 
     /// A run of characters that mean nothing, as one mistake.
@@ -162,6 +189,14 @@ impl<'a> Lexer<'a> {
         };
         let span = self.take(length);
         self.mistakes.push(SyntaxError::new(span, message).help("names are made of A-Z, a-z, 0-9 and _"));
+    }
+}
+
+/// The remedy for a foreign sign; what follows a colon is a reason.
+fn said(instead: &str) -> String {
+    match instead.split_once(": ") {
+        Some((sign, reason)) => format!("write `{sign}`: {reason}"),
+        None => format!("write `{instead}`"),
     }
 }
 
@@ -182,7 +217,8 @@ fn begins_number(text: &str) -> bool {
 fn number_length(bytes: &[u8]) -> usize {
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let mut length = digits(0);
-    if bytes.get(length) == Some(&b'.') {
+    // `1..N` is a range.
+    if bytes.get(length) == Some(&b'.') && bytes.get(length + 1) != Some(&b'.') {
         length += 1 + digits(length + 1);
     }
     if let Some(b'e' | b'E') = bytes.get(length) {

@@ -3,16 +3,21 @@
 pub(super) mod checks;
 pub(super) mod structure;
 
+use std::collections::BTreeMap;
+
 use super::fields::Scalar;
 use super::source::{Place, Written};
 use crate::expression::ast::Collection;
 use crate::problem::{Sense, Settings, VolumeLaw};
+use crate::units::Dimension;
 
 /// Everything the problem file says; tables are read later.
 #[derive(Default)]
 pub(super) struct Declaration {
     pub title: Option<String>,
-    pub units: Vec<(String, String)>,
+    pub units: Vec<(String, Written)>,
+    /// Dimensions of data that are given with units, by the places of their keys.
+    pub measured: BTreeMap<Place, Dimension>,
     /// The sense and the expression; no expression where it is of a wrong type.
     pub objective: Option<(Sense, Option<Written>)>,
     pub parameters: Vec<(Name, Numbers)>,
@@ -20,6 +25,7 @@ pub(super) struct Declaration {
     pub variables: Vec<VariableEntry>,
     pub profiles: Vec<ProfileEntry>,
     pub definitions: Vec<(Name, Scalar)>,
+    pub catalogues: Vec<CatalogueEntry>,
     pub sections: Vec<SectionEntry>,
     pub ribs: Vec<RibEntry>,
     pub constraints: Vec<ConstraintEntry>,
@@ -61,6 +67,22 @@ pub(super) struct VariableEntry {
     pub name: Name,
     pub size: Option<Scalar>,
     pub range: Range<Numbers>,
+    pub list: Option<ListEntry>,
+}
+
+/// `step`, `values` or `integer` beside the bounds of a variable or dimension.
+pub(super) struct ListEntry {
+    pub place: Place,
+    pub values: Listing,
+}
+
+/// How a list is given.
+pub(super) enum Listing {
+    /// From the lower bound in steps.
+    Step(Scalar),
+    Values(Vec<Scalar>),
+    /// Whole numbers.
+    Integer,
 }
 
 /// An entry of `[profiles]`.
@@ -92,15 +114,27 @@ pub(super) struct SectionEntry {
     pub name: Name,
     /// `None` where it is missing (already a mistake).
     pub kind: Option<Written>,
+    /// Which catalogue a section of kind `catalogue` is from.
+    pub from: Option<Written>,
     pub points: Option<PointsEntry>,
     pub dimensions: Vec<(Name, DimensionEntry)>,
     pub data: Vec<(Name, Datum)>,
 }
 
+/// An entry of `[catalogues]`.
+pub(super) struct CatalogueEntry {
+    pub name: Name,
+    pub file: Written,
+    /// The kind of its sections; `general` where nothing is said.
+    pub kind: Option<Written>,
+    /// Properties by which its sections are known, instead of their dimensions.
+    pub properties: Vec<Written>,
+}
+
 /// How a dimension is given.
 pub(super) enum DimensionEntry {
     Given(Scalar),
-    Own(Range<Scalar>),
+    Own(Range<Scalar>, Option<ListEntry>),
 }
 
 /// A value of `data`.
@@ -130,6 +164,8 @@ pub(super) struct ConstraintEntry {
     pub name: Option<Name>,
     pub place: Place,
     pub repeated: Option<Collection>,
+    /// `for = "i in 1..N"`
+    pub index: Option<Written>,
     pub only: Vec<Written>,
     pub kind: Option<Written>,
     pub filter: Option<Written>,

@@ -1,11 +1,14 @@
 //! One TOML table: its keys in the file's order, taken one by one; whatever is left in the end is unknown.
 
+use std::collections::BTreeMap;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use crate::problem::nearest::did_you_mean;
+use crate::units::{Dimension, System};
 
 /// A key and its value.
 #[derive(Clone)]
@@ -28,8 +31,19 @@ pub(super) enum Scalar {
 pub(super) struct Reader<'a> {
     /// Set while bounds are read: there, and nowhere else, `inf` has a meaning.
     pub bounds: bool,
+    /// What the file's numbers are in, once that is read.
+    pub units: System,
+    /// Dimensions of data given with units, by the places of their keys.
+    pub measured: BTreeMap<Place, Dimension>,
     pub source: &'a Source,
     pub findings: &'a mut Findings,
+}
+
+impl<'a> Reader<'a> {
+    /// For the text of a file; nothing is known of its units.
+    pub fn new(source: &'a Source, findings: &'a mut Findings) -> Reader<'a> {
+        Reader { bounds: false, units: System::default(), measured: BTreeMap::new(), source, findings }
+    }
 }
 
 /// The fields of a table not yet taken.
@@ -176,6 +190,14 @@ impl<'a> Field<'a> {
             Some(items) => items.iter().filter_map(|item| item.text(reader)).collect(),
             None => self.text(reader).into_iter().collect(),
         }
+    }
+
+    /// The number that a text such as `"12 kN"` stands for in the file's units; `None` for any other text.
+    pub fn quantity(&self, reader: &mut Reader) -> Option<f64> {
+        let DeValue::String(text) = self.value else { return None };
+        let (own, dimension) = reader.units.quantity(text)?;
+        reader.measured.insert(self.key_place, dimension);
+        Some(own)
     }
 
     /// The fields of a table.

@@ -44,6 +44,11 @@ impl Findings {
         }
     }
 
+    /// How many mistakes there are so far.
+    pub fn mistakes(&self) -> usize {
+        self.mistakes.len() + self.uncounted
+    }
+
     /// True while nothing is wrong.
     pub fn clean(&self) -> bool {
         self.mistakes.is_empty()

@@ -24,6 +24,7 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::problem::Problem;
+pub use check::{Dimensions, Measured};
 pub use example::{example, examples};
 use fields::Reader;
 use findings::Findings;
@@ -44,6 +45,8 @@ pub struct Input {
     pub warnings: Vec<Mistake>,
     /// The file and its tables.
     pub files: Vec<PathBuf>,
+    /// What its numbers measure.
+    pub dimensions: Dimensions,
 }
 
 /// Reads a problem file and its tables.
@@ -108,13 +111,15 @@ fn understand(
     checksum.update(bytes);
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let declared = parse_tables::parse_tables(document.get_ref(), &mut Reader { bounds: false, source, findings: &mut findings });
+    let mut reader = Reader::new(source, &mut findings);
+    let declared = parse_tables::parse_tables(document.get_ref(), &mut reader);
+    let units = reader.units;
     if !errors.is_empty() {
         syntax(source, &errors, &mut findings);
         return Err(findings.into_parts(source, overrides).0);
     }
-    let mut tables = Tables { folder, checksum: &mut checksum, watch };
-    let (mut problem, findings) = check::check(declared, source, findings, overrides, &mut tables);
+    let mut tables = Tables { folder, units: &units, checksum: &mut checksum, watch };
+    let (mut problem, findings, dimensions) = check::check(declared, source, findings, overrides, &mut tables);
     let clean = findings.clean();
     let files = findings.tables.iter().map(|(path, _)| path.clone()).collect();
     let (mistakes, warnings) = findings.into_parts(source, overrides);
@@ -123,7 +128,7 @@ fn understand(
     }
     problem.warnings = warnings.iter().map(one_line).collect();
     let sha256 = checksum.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok(Input { problem, sha256, warnings, files })
+    Ok(Input { problem, sha256, warnings, files, dimensions })
 }
 
 /// Mistakes of the TOML itself. What the walk found on the same lines is only their consequence.

@@ -2,6 +2,7 @@
 
 mod checks;
 mod constraints;
+mod lists;
 mod loads;
 mod member;
 mod profiles;
@@ -18,6 +19,7 @@ use super::declaration::{Declaration, Name, Numbers, Range, VariableEntry};
 use super::fields::{Field, Fields, Reader, Scalar};
 use super::source::Place;
 use crate::problem::Sense;
+use crate::units::System;
 
 /// The whole file.
 pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declaration {
@@ -26,8 +28,10 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
     let mut declared = Declaration { title, ..Declaration::default() };
     objective(&mut top, &mut declared, reader);
     for field in named(&mut top, "units", reader) {
-        declared.units.extend(field.text(reader).map(|label| (field.key.to_owned(), label.text)));
+        declared.units.extend(field.text(reader).map(|label| (field.key.to_owned(), label)));
     }
+    let labels: Vec<_> = declared.units.iter().map(|(key, label)| (key.clone(), label.text.clone())).collect();
+    reader.units = System::of(&labels);
     for field in named(&mut top, "parameters", reader) {
         // A name whose value is wrong is known all the same: its uses are no mistakes.
         let value = numbers(&field, reader).unwrap_or(Numbers::One(Scalar::Number(f64::NAN, field.place)));
@@ -43,6 +47,9 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
     }
     for field in named(&mut top, "definitions", reader) {
         declared.definitions.extend(field.scalar(reader).map(|value| (name(&field), value)));
+    }
+    for field in named(&mut top, "catalogues", reader) {
+        declared.catalogues.extend(lists::catalogue(&field, reader));
     }
     for field in named(&mut top, "sections", reader) {
         declared.sections.extend(shapes::section(&field, reader));
@@ -69,6 +76,7 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
         fields.finish(reader);
     }
     top.finish(reader);
+    declared.measured = std::mem::take(&mut reader.measured);
     declared
 }
 
@@ -107,13 +115,14 @@ fn variable(field: &Field, reader: &mut Reader) -> Option<VariableEntry> {
     let Some(mut fields) = field.table(reader) else { return Some(open_variable(field)) };
     let size = fields.take("size").and_then(|field| field.scalar(reader));
     let range = range(&mut fields, numbers, reader);
+    let list = lists::list(&mut fields, reader);
     fields.finish(reader);
-    Some(VariableEntry { name: name(field), size, range })
+    Some(VariableEntry { name: name(field), size, range, list })
 }
 
 /// Stands in for a variable whose declaration is wrong, so that its uses are not mistakes as well.
 fn open_variable(field: &Field) -> VariableEntry {
-    VariableEntry { name: name(field), size: None, range: Range::default() }
+    VariableEntry { name: name(field), size: None, range: Range::default(), list: None }
 }
 
 /// `lower`, `upper` and `start` of a table.

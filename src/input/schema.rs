@@ -27,11 +27,12 @@ pub fn schema() -> Value {
             "title": { "type": "string", "description": "Shown in reports; the file's stem if left out." },
             "minimize": { "type": "string", "description": "The objective, an expression. Default \"volume\" where there are ribs." },
             "maximize": { "type": "string", "description": "Instead of minimize." },
-            "units": map_of(json!({ "type": "string" }), "Labels for reports, such as length = \"m\"."),
+            "units": map_of(json!({ "type": "string" }), "What numbers are in, such as length = \"m\", force = \"kN\": quantities are converted into these."),
             "parameters": map_of(one_or_many(), "Constants: numbers, arrays, or expressions in other parameters."),
             "variables": map_of(variable(), "Free design variables."),
             "profiles": map_of(profile(), "B-splines of few control values along a line, used as profile(NAME, s)."),
             "definitions": map_of(scalar("An expression."), "Names for expressions, in any order, without circles."),
+            "catalogues": map_of(catalogue(), "Families of sections, a CSV file each; used by kind = \"catalogue\"."),
             "sections": map_of(section(), "Cross-sections."),
             "ribs": { "type": "array", "items": rib() },
             "structure": structure::settings(),
@@ -77,14 +78,27 @@ fn object(properties: Value, required: &[&str]) -> Value {
     json!({ "type": "object", "additionalProperties": false, "properties": properties, "required": required })
 }
 
+/// Control values of a profile.
+fn control() -> Value {
+    let range = json!({ "size": scalar("Number of control values."), "lower": one_or_many(), "upper": one_or_many(), "start": one_or_many() });
+    object(range, &[])
+}
+
 fn variable() -> Value {
     object(
         json!({
             "size": scalar("Number of elements x[1], x[2], … of an array."),
             "lower": one_or_many(), "upper": one_or_many(), "start": one_or_many(),
+            "step": scalar("Values from the lower bound in steps of this."),
+            "values": list_of_values(),
+            "integer": { "type": "boolean", "description": "Whole numbers only." },
         }),
         &[],
     )
+}
+
+fn list_of_values() -> Value {
+    json!({ "type": "array", "items": { "type": ["number", "string"] }, "minItems": 1, "description": "The values it may take." })
 }
 
 fn profile() -> Value {
@@ -93,7 +107,7 @@ fn profile() -> Value {
         json!({
             "kind": { "enum": kinds, "default": "b-spline", "description": "constant: 1 control value; linear: 2." },
             "degree": json!({ "type": ["integer", "string"], "minimum": 0, "default": DEFAULT_DEGREE }),
-            "control": variable(),
+            "control": control(),
             "knots": { "type": "array", "items": { "type": ["number", "string"] },
                 "description": "size + degree + 1 knots rising from 0 to 1; uniform and clamped if left out." },
         }),
@@ -109,7 +123,7 @@ fn data() -> Value {
 /// The kind first, then what it asks for: editors name the very key that is wrong. Forms that number a dimension (`thickness[1]`,
 /// …) are one, with an array.
 fn section() -> Value {
-    let kinds: Vec<&str> = sections::KINDS.iter().map(|kind| kind.name()).collect();
+    let kinds: Vec<&str> = sections::KINDS.iter().map(|kind| kind.name()).chain(["catalogue"]).collect();
     let rule = |kind: &&'static dyn Kind| {
         json!({
             "if": { "properties": { "kind": { "const": kind.name() } }, "required": ["kind"] },
@@ -120,13 +134,39 @@ fn section() -> Value {
         "type": "object",
         "required": ["kind"],
         "properties": { "kind": { "enum": kinds, "description": "What it is a section of." } },
-        "allOf": sections::KINDS.iter().map(rule).collect::<Vec<Value>>(),
+        "allOf": sections::KINDS.iter().map(rule).chain([catalogue_section()]).collect::<Vec<Value>>(),
     })
+}
+
+/// A row of a catalogue.
+fn catalogue_section() -> Value {
+    let keys = json!({ "kind": { "const": "catalogue" }, "from": text("A name of [catalogues]."), "data": data() });
+    json!({
+        "if": { "properties": { "kind": { "const": "catalogue" } }, "required": ["kind"] },
+        "then": object(keys, &["kind", "from"]),
+    })
+}
+
+fn catalogue() -> Value {
+    let table = object(
+        json!({
+            "file": text("CSV: name and the dimensions of a kind."), "kind": text("The kind; general if left out."),
+            "properties": { "type": ["array", "string"], "items": { "type": "string" },
+                "description": "What its sections are known by (kind general), computed from their dimensions: A, Ix, Wx, …" },
+        }),
+        &["file"],
+    );
+    json!({ "anyOf": [text("CSV: name, A, Ix, …"), table], "description": "Sections to choose from." })
 }
 
 /// All keys of a kind, and the sets of dimensions of which one must be given.
 fn of_kind(kind: &'static dyn Kind) -> Value {
-    let own = object(json!({ "lower": scalar("Lower bound."), "upper": scalar("Upper bound."), "start": scalar("Start.") }), &[]);
+    let range = json!({
+        "lower": scalar("Lower bound."), "upper": scalar("Upper bound."), "start": scalar("Start."),
+        "step": scalar("Values from the lower bound in steps of this."), "values": list_of_values(),
+        "integer": { "type": "boolean", "description": "Whole numbers only." },
+    });
+    let own = object(range, &[]);
     let dimension = json!({
         "anyOf": [scalar("A fixed number, or an expression."), own],
         "description": "A number (fixed), bounds and start (a variable), or an expression.",
@@ -203,7 +243,7 @@ fn constraint() -> Value {
         json!({
             "name": text("Its name in reports."),
             "require": text("a <= b, a >= b, a == b, or lo <= a <= hi with constant lo and hi."),
-            "for": { "enum": ["sections", "ribs", "nodes"], "description": "Once per section, rib or node." },
+            "for": { "type": "string", "pattern": "^(sections|ribs|nodes|.* in .*)$", "description": "Once per section, rib or node, or per number: i in 1..N." },
             "only": { "type": ["array", "string"], "items": { "type": "string" }, "description": "Patterns (* and ?) of names." },
             "kind": { "enum": kinds, "description": "Items of this kind only." },
             "where": text("A comparison of data and parameters that chooses items."),

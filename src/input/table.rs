@@ -1,5 +1,7 @@
 //! A CSV table read row by row; its bytes go into the checksum on the way.
 
+mod units;
+
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -12,6 +14,8 @@ use super::findings::Findings;
 use super::load::reason;
 use super::source::{Place, Written};
 use crate::problem::words::count;
+use crate::units::{System, Unit};
+use units::decimal;
 
 /// An open table.
 pub(super) struct Table<'a> {
@@ -25,12 +29,15 @@ pub(super) struct Table<'a> {
     pub ragged: bool,
     /// Column names.
     pub headers: Vec<String>,
+    /// The units of columns such as `h [mm]`, and what one of each is in the file's own.
+    pub units: Vec<Option<(Unit, f64)>>,
     number: u8,
 }
 
 /// One row.
 pub(super) struct Row<'r> {
     record: &'r StringRecord,
+    units: &'r [Option<(Unit, f64)>],
     /// Set where a decimal comma is met; `None` where commas separate fields.
     commas: Option<&'r std::cell::Cell<bool>>,
     line: u32,
@@ -47,6 +54,8 @@ const HEADER: u64 = 1 << 16;
 pub(super) struct Tables<'a> {
     /// The problem file's folder.
     pub folder: &'a Path,
+    /// What the file's numbers are in.
+    pub units: &'a System,
     /// Of all that is read.
     pub checksum: &'a mut Sha256,
     pub watch: &'a dyn Fn(Progress<'_>),
@@ -101,8 +110,10 @@ impl Tables<'_> {
         builder.has_headers(false).flexible(true).buffer_capacity(1 << 18).delimiter(separator);
         let (reader, record) = (builder.from_reader(summed), StringRecord::new());
         let commas = std::cell::Cell::new(false);
-        let mut table = Table { reader, record, separator, commas, ragged: false, headers: Vec::new(), number };
+        let (headers, units) = (Vec::new(), Vec::new());
+        let mut table = Table { reader, record, separator, commas, ragged: false, headers, units, number };
         table.read_headers(findings)?;
+        table.read_units(self.units, findings);
         Some(table)
     }
 }
@@ -141,7 +152,18 @@ impl Table<'_> {
             let line = self.line();
             match outcome {
                 Ok(false) => return None,
-                Ok(true) if self.record.len() == self.headers.len() => break,
+                Ok(true) if self.record.len() == self.headers.len() => match self.beside_unit() {
+                    None => break,
+                    Some(at) => {
+                        self.ragged = true;
+                        let message = "the column has a unit, and this is no number";
+                        findings.mistake(
+                            self.place(line, at),
+                            message,
+                            "leave the unit out of the header and write it into cells",
+                        );
+                    }
+                },
                 Ok(true) => {
                     self.ragged = true;
                     let (message, help) = self.misfit();
@@ -157,7 +179,7 @@ impl Table<'_> {
             }
         }
         let commas = (self.separator != b',').then_some(&self.commas);
-        Some(Row { line: self.line(), record: &self.record, commas, table: self.number })
+        Some(Row { line: self.line(), record: &self.record, units: &self.units, commas, table: self.number })
     }
 
     /// What is wrong with a row of another length than the header.
@@ -215,18 +237,15 @@ impl Row<'_> {
         Written { text: self.field(at).to_owned(), place: self.place(at), inside: None }
     }
 
-    /// The field as a number, with a decimal comma where commas do not separate fields.
+    /// The field as a number in the file's units, with a decimal comma where commas do not separate fields.
     pub fn number(&self, at: usize) -> Option<f64> {
         let text = self.field(at);
-        if let Ok(number) = text.parse::<f64>() {
-            return Some(number).filter(|number| !number.is_nan());
+        let number = decimal(text, self.commas.is_some())?;
+        if let Some(commas) = self.commas.filter(|_| text.contains(',')) {
+            commas.set(true);
         }
-        let commas = self.commas?;
-        let is_decimal = text.bytes().all(|b| b.is_ascii_digit() || b"+-,eE".contains(&b));
-        let (before, after) = text.split_once(',').filter(|_| is_decimal)?;
-        let number = format!("{before}.{after}").parse::<f64>().ok().filter(|number| !number.is_nan())?;
-        commas.set(true);
-        Some(number)
+        let unit = self.units.get(at).copied().flatten();
+        Some(unit.map_or(number, |(_, one)| number * one))
     }
 }
 

@@ -83,6 +83,19 @@ pub struct Ribs {
     pub data: Vec<Column>,
 }
 
+/// Variables that take the numbers of one row of a list together: a variable and its values, or the dimensions of a catalogue's section.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// What reports call it: the variable, or the section.
+    pub name: String,
+    /// The variables.
+    pub variables: Vec<u32>,
+    /// The rows, a number per variable.
+    pub rows: Vec<Vec<f64>>,
+    /// Names of the rows; empty where they have none.
+    pub names: Vec<String>,
+}
+
 /// One data column of sections or ribs.
 #[derive(Debug, Clone)]
 pub struct Column {

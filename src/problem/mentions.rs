@@ -32,7 +32,8 @@ struct Found<'a> {
 impl<'a> Found<'a> {
     fn expression(&mut self, ast: &'a Ast) {
         match &ast.kind {
-            AstKind::Number(_) | AstKind::Text(_) => {}
+            AstKind::Number(_) | AstKind::Quantity(..) | AstKind::Text(_) => {}
+            AstKind::ValueIn(inner, _) | AstKind::OfUnit(inner, _) => self.expression(inner),
             AstKind::Name(parts) => self.name(parts, None, ast.span),
             AstKind::Unary(_, operand) => self.expression(operand),
             AstKind::Index(base, index) => match (&base.kind, &index.kind) {
@@ -49,6 +50,10 @@ impl<'a> Found<'a> {
                 self.expression(right);
             }
             AstKind::Fold(_, list) | AstKind::Call(_, list) => list.iter().for_each(|part| self.expression(part)),
+            AstKind::OverRange { ends, body, .. } => {
+                ends.iter().for_each(|end| self.expression(end));
+                self.expression(body);
+            }
             AstKind::Over { filter, body, .. } => {
                 (self.folds, self.depth) = (true, self.depth + 1);
                 if let Some(filter) = filter {

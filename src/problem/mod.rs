@@ -42,7 +42,7 @@ pub use crate::ribs::law::VolumeLaw;
 use crate::sections;
 pub use collections::sections_form;
 pub use constraint::{Constraint, Limit, Scope};
-pub use data::{Cells, Column, Dimension, Origin, Ribs, Sections, Variables};
+pub use data::{Cells, Column, Dimension, Listed, Origin, Ribs, Sections, Variables};
 pub use formula::{Formula, Property};
 pub use profile::Profile;
 pub use settings::Settings;
@@ -63,6 +63,8 @@ pub struct Problem {
     pub objective_text: String,
     /// Scalar variables in their final order: `[variables]` (arrays element by element), then the sections' own.
     pub variables: Variables,
+    /// Variables whose values come from lists.
+    pub listed: Vec<Listed>,
     /// `[definitions]`: name and value. They refer to one another by index, without cycles.
     pub definitions: Vec<(String, Formula)>,
     /// Formulas of computed section dimensions, pointed at by [`Dimension::Formula`].

@@ -29,13 +29,8 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
         return Some(place);
     }
     for _ in 0..CORRECTIONS {
-        let step = newton_step(site, &moving, &place, PROXIMAL)?;
-        let mut longest = 0.0f64;
-        for (k, &j) in moving.iter().enumerate() {
-            let before = place.x[j];
-            place.x[j] = (before + step[k]).clamp(site.meta().lower[j], site.meta().upper[j]);
-            longest = longest.max((place.x[j] - before).abs() / (before.abs() + place.x[j].abs()).max(f64::MIN_POSITIVE));
-        }
+        let step = newton_step(site, &moving, &place, Towards::Floor(PROXIMAL))?;
+        let longest = take(site, &moving, &step, &mut place.x);
         for (k, &(i, _)) in site.held.iter().enumerate() {
             place.multipliers[i] += step[moving.len() + k];
         }
@@ -50,13 +45,40 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
     Some(place)
 }
 
+/// Takes a step within the bounds; the longest change, relative to the variables.
+fn take(site: &Site<'_>, moving: &[usize], step: &[f64], x: &mut [f64]) -> f64 {
+    let mut longest = 0.0f64;
+    for (&j, step) in moving.iter().zip(step) {
+        let before = x[j];
+        x[j] = (before + step).clamp(site.meta().lower[j], site.meta().upper[j]);
+        longest = longest.max((x[j] - before).abs() / (before.abs() + x[j].abs()).max(f64::MIN_POSITIVE));
+    }
+    longest
+}
+
+/// The place led back to the rows alone, without looking at the floor: what is solved for slopes and rows together is right to the last
+/// digits of the larger of both only, which may be far more than variables far out have left.
+pub(super) fn back_to_rows(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<Floor> {
+    let moving: Vec<usize> = site.free.iter().copied().filter(|&j| j != pivot).collect();
+    if moving.is_empty() {
+        return Some(place);
+    }
+    for _ in 0..CORRECTIONS {
+        let step = newton_step(site, &moving, &place, Towards::Rows)?;
+        if take(site, &moving, &step, &mut place.x) <= SETTLED {
+            break;
+        }
+    }
+    place.x.iter().all(|x| x.is_finite()).then_some(place)
+}
+
 /// Newton's steps from a site, all free variables moving: where so many lead, and the longest change of each in units of the
 /// variables' sizes. `None` where the model has no value on the way.
 pub fn newton(site: &Site<'_>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut place = Floor { x: site.x.to_vec(), multipliers: site.multipliers.to_vec() };
     let mut lengths = Vec::with_capacity(count);
     for _ in 0..count {
-        let step = newton_step(site, site.free, &place, DAMPED)?;
+        let step = newton_step(site, site.free, &place, Towards::Floor(DAMPED))?;
         let mut longest = 0.0f64;
         for (&j, step) in site.free.iter().zip(&step) {
             let before = place.x[j];
@@ -74,9 +96,18 @@ pub fn newton(site: &Site<'_>, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
     Some((place.x, lengths))
 }
 
+/// Where a step leads.
+#[derive(Clone, Copy)]
+enum Towards {
+    /// To the floor on the rows, the Hessian regularised by so much.
+    Floor(f64),
+    /// To the rows alone.
+    Rows,
+}
+
 /// The step of [H Aᵀ; A −δ]·[dx; dy] = [−∇L; limit − c], every variable in the unit that makes the curvature of its row one: rows
 /// are summed in units of the variables' sizes, so that units change nothing.
-fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, proximal: f64) -> Option<Vec<f64>> {
+fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, towards: Towards) -> Option<Vec<f64>> {
     let (meta, model) = (site.meta(), site.model);
     let (n, m) = (moving.len(), site.held.len());
     let mut slope = vec![0.0; meta.variables()];
@@ -110,7 +141,13 @@ fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, proximal: f64) 
         }
     }
     let mut right = DVector::<f64>::zeros(n + m);
-    moving.iter().enumerate().for_each(|(k, &j)| right[k] = -slope[j]);
+    let proximal = match towards {
+        Towards::Floor(proximal) => {
+            moving.iter().enumerate().for_each(|(k, &j)| right[k] = -slope[j]);
+            proximal
+        }
+        Towards::Rows => PROXIMAL,
+    };
     site.held.iter().enumerate().for_each(|(k, &(i, limit))| right[n + k] = limit - rows[i]);
     let unit = balance(&mut matrix, &mut right, &size, proximal);
     let solution = matrix.full_piv_lu().solve(&right)?;

@@ -1,6 +1,6 @@
 //! Following a valley outwards.
 
-use super::floor::{Floor, settle};
+use super::floor::{Floor, back_to_rows, settle};
 use super::height::{Fall, Height, ROUNDINGS, is_endless, last_digits};
 use crate::model::{Meta, Model};
 
@@ -128,7 +128,10 @@ impl<'a> Valley<'a> {
             let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= ENOUGH { break } else { return None }
             };
-            if !(self.site.is_feasible)(&settled.x) || height.value > last.value + last.noise + height.noise {
+            let (is_feasible, settled, height) = self.on_rows(lead, settled, height);
+            // What is left of a fall of fifteen digits is rounding of the steps that lead there.
+            let level = last.noise + height.noise + ROUNDINGS * (base.value - last.value);
+            if !is_feasible || height.value > last.value + level {
                 // So far from the start that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
                 let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
                 if is_lost { break } else { return None }
@@ -191,6 +194,18 @@ impl<'a> Valley<'a> {
         let floor = settle(&self.site, lead.pivot, next)?;
         let height = self.height(&floor)?;
         Some((floor, height))
+    }
+
+    /// Whether a place meets the limits, if need be led back to the rows once more.
+    fn on_rows(&self, lead: &Lead, place: Floor, height: Height) -> (bool, Floor, Height) {
+        if (self.site.is_feasible)(&place.x) {
+            return (true, place, height);
+        }
+        let back = back_to_rows(&self.site, lead.pivot, place.clone()).filter(|back| (self.site.is_feasible)(&back.x));
+        match back.and_then(|back| self.height(&back).map(|height| (back, height))) {
+            Some((back, height)) => (true, back, height),
+            None => (false, place, height),
+        }
     }
 
     /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.

@@ -12,6 +12,7 @@ pub mod earlier;
 pub mod governing;
 mod named_numbers;
 pub mod number;
+pub mod page;
 pub mod performance_profile;
 pub mod pictures;
 pub mod result;
@@ -51,6 +52,8 @@ pub struct About {
     pub checks: Vec<Check>,
     /// What the reader wants said.
     pub warnings: Vec<String>,
+    /// Sections and the rows of catalogues that were chosen for them.
+    pub chosen: Vec<(String, String)>,
     /// Changes to the file's numbers for this run, as given by `--set`.
     pub changes: Vec<String>,
 }

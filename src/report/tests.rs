@@ -25,6 +25,7 @@ fn about(sense: Sense) -> About {
         has_structure: false,
         checks: Vec::new(),
         warnings: Vec::new(),
+        chosen: Vec::new(),
         changes: Vec::new(),
     }
 }

@@ -44,6 +44,11 @@ fn above(outcome: &mut Outcome, relaxed: &Outcome) {
     }
 }
 
+/// A rigorous bound below every design of a truss, whatever its sizes; `None` where there is none.
+pub(super) fn below_every_design(subject: &Subject, remaining: &Remaining, interrupt: Option<&AtomicBool>) -> Option<f64> {
+    relaxed(subject, remaining, interrupt)?.lower_bound
+}
+
 /// The run with free forces; `None` where it would say nothing of the structure, or no time is left.
 fn relaxed(subject: &Subject, remaining: &Remaining, interrupt: Option<&AtomicBool>) -> Option<Outcome> {
     remaining.settings(&subject.settings)?;

@@ -5,16 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
-use super::coinciding;
 use super::courses::courses;
 use super::folder::{Folder, default_folder};
+use super::further::Further;
 use super::observe::Records;
-use super::present::present;
 use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
-use super::unobserved::{by_interior_point, unobserved};
-use super::{MOST_LISTED, RunError, Subject, Watcher, pictures, sizes, strongest, structure_files, utilisation, vanished};
+use super::unobserved::unobserved;
+use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, strongest, structure_files, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::problem::Settings;
@@ -101,10 +100,10 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         ..subject.task(&start, request.interrupt)
     };
-    let means = Means { choices: &request.choices, remaining: &remaining, interrupt: request.interrupt };
-    let (mut outcome, judged) = means.settled(subject, &task, |task| records.watch(task, &request.choices, watcher));
-    bound_below(subject, &mut outcome, &remaining, request.interrupt);
-    strongest::explain(subject, &mut outcome, &remaining);
+    let further =
+        Further { choices: &request.choices, settings: &subject.settings, remaining: &remaining, interrupt: request.interrupt };
+    let (mut outcome, judged) = further.judged(subject, &task, |task| records.watch(task, &request.choices, watcher));
+    let judged = followed_up(subject, (&mut outcome, judged), &mut about, &further);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
@@ -153,75 +152,36 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
     outcome_by(subject, &choose(&[], None, &subject.settings)?, &subject.settings)
 }
 
-/// The same by these backends, with other settings than the file's.
+/// The same by these backends and algorithms, with other tolerances and limits.
 ///
 /// # Errors
-/// No backend takes the problem.
+/// None of them takes the problem.
 pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) -> Result<Outcome, RunError> {
     let remaining = Remaining::new();
     let task = Task { settings, ..subject.task(&subject.model().meta().start, None) };
     refuse_if_none_accepts(choices, &task)?;
-    let means = Means { choices, remaining: &remaining, interrupt: None };
-    let (mut outcome, _) = means.settled(subject, &task, |task| unobserved(task, choices));
-    bound_below(subject, &mut outcome, &remaining, None);
-    strongest::explain(subject, &mut outcome, &remaining);
+    let further = Further { choices, settings, remaining: &remaining, interrupt: None };
+    let (mut outcome, judged) = further.judged(subject, &task, |task| unobserved(task, choices));
+    followed_up(subject, (&mut outcome, judged), &mut About::default(), &further);
     Ok(outcome)
 }
 
-/// What further runs are done by, and within what time.
-struct Means<'a> {
-    choices: &'a [Choice],
-    remaining: &'a Remaining,
-    interrupt: Option<&'a AtomicBool>,
-}
-
-impl Means<'_> {
-    /// The task's outcome by `run`, judged anew where modes coincide or bars have vanished; and the problem it is then an outcome of.
-    fn settled(
-        &self,
-        subject: &Subject,
-        task: &Task<'_>,
-        mut run: impl FnMut(&Task<'_>) -> Outcome,
-    ) -> (Outcome, Option<Subject>) {
-        let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.nearby(rest, settings, x, &self.of_rounds());
-        let foreseen = coinciding::foresee(subject, task.settings, task.start, &rounds);
-        let left = self.remaining.settings(task.settings);
-        let task = &Task { settings: left.as_ref().unwrap_or(task.settings), ..*task };
-        if let Some(foreseen) = foreseen {
-            let start = foreseen.subject.completed(foreseen.outcome.x.clone());
-            let own = foreseen.subject.task(&start, self.interrupt);
-            let all = left.is_some().then(|| run(&Task { settings: task.settings, starts: task.starts.max(1), ..own }));
-            let all = all.map(|all| present(&foreseen.subject, all));
-            if let Some(settled) = foreseen.compared(subject, all) {
-                return (settled.outcome, Some(settled.subject));
-            }
-        }
-        let outcome = present(subject, run(task));
-        let again = |rest: &Subject, x: &[f64]| self.nearby(rest, task.settings, x, self.choices);
-        let coinciding = coinciding::exchange(subject, task.settings, &outcome, &rounds).and_then(|found| {
-            let all = again(&found.subject, &found.outcome.x);
-            found.compared(subject, all)
-        });
-        match coinciding.or_else(|| vanished::settle(subject, &outcome, again)) {
-            Some(settled) => (settled.outcome, Some(settled.subject)),
-            None => (outcome, None),
-        }
+/// What follows an outcome and the problem it is of: sizes chosen from lists, bounds; the problem it is of then.
+fn followed_up(
+    subject: &Subject,
+    (outcome, judged): (&mut Outcome, Option<Subject>),
+    about: &mut About,
+    further: &Further<'_>,
+) -> Option<Subject> {
+    let again = |rest: &Subject, x: &[f64]| further.nearby(rest, x);
+    if let Some(chosen) = lists::choose(subject, further.settings, outcome, again, further.remaining, further.interrupt) {
+        *outcome = chosen.outcome;
+        about.chosen = chosen.rows;
+        return chosen.subject;
     }
-
-    /// Rounds that nobody sees are the interior point's, where it is asked for.
-    fn of_rounds(&self) -> Vec<Choice> {
-        let interior_point = by_interior_point();
-        let is_asked = self.choices.iter().any(|choice| choice.backend.name() == interior_point.backend.name());
-        if is_asked { vec![interior_point] } else { self.choices.to_vec() }
-    }
-
-    /// One start of these backends from a point of the user's variables; `None` where no time is left for it.
-    fn nearby(&self, subject: &Subject, settings: &Settings, x: &[f64], choices: &[Choice]) -> Option<Outcome> {
-        let settings = self.remaining.settings(settings)?;
-        let start = subject.completed(x.to_vec());
-        let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
-        Some(present(subject, unobserved(&task, choices)))
-    }
+    bound_below(subject, outcome, further.remaining, further.interrupt);
+    strongest::explain(subject, outcome, further.remaining);
+    judged
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

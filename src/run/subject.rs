@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::{RunError, plausible};
 use crate::crosscheck::Task;
 use crate::files::Inputs;
-use crate::input::{self, Progress};
+use crate::input::{self, Dimensions, Progress};
 use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
@@ -23,6 +23,8 @@ pub struct Subject {
     pub settings: Settings,
     /// The file and its tables.
     pub inputs: Inputs,
+    /// What the file's numbers measure.
+    pub dimensions: Dimensions,
     /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
     pub warnings: Vec<String>,
     formulation: Formulation,
@@ -45,6 +47,7 @@ impl Subject {
         let input = input::read_watched(file, changes, watch).map_err(refused)?;
         let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
         subject.inputs = Inputs::new(input.files);
+        subject.dimensions = input.dimensions;
         subject.about.changes = changes.to_vec();
         let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
@@ -86,10 +89,12 @@ impl Subject {
             has_structure: problem.structure.is_some(),
             checks: problem.checks.clone(),
             warnings: problem.warnings.iter().cloned().chain(plausible::warnings(problem)).collect(),
+            chosen: Vec::new(),
             changes: Vec::new(),
         };
         let settings = problem.settings.clone();
-        Ok(Subject { about, settings, inputs: Inputs::new([file.into()]), warnings: Vec::new(), formulation })
+        let (inputs, dimensions) = (Inputs::new([file.into()]), Dimensions::default());
+        Ok(Subject { about, settings, inputs, dimensions, warnings: Vec::new(), formulation })
     }
 
     /// The same file's problem after a change, with all that was said and set.
@@ -101,6 +106,7 @@ impl Subject {
             about: self.about.clone(),
             settings: self.settings.clone(),
             inputs: self.inputs.clone(),
+            dimensions: self.dimensions.clone(),
             warnings: Vec::new(),
             formulation: formulate(problem)?,
         })

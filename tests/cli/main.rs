@@ -1,5 +1,6 @@
 //! The whole program: exit codes, files, what stands on standard output and what does not.
 
+mod documents;
 mod files;
 mod verdicts;
 

@@ -99,8 +99,8 @@ struct Walk<'w, 'p> {
     /// The objective at the point, or its Lagrangian where that is lower, and the objective with what all distances to limits are
     /// worth: going to a limit that is missed by a little is neither a fall nor a rise.
     here: (f64, f64),
-    /// ∇f + Jᵀy
-    slopes: Vec<f64>,
+    /// ∇f + Jᵀy, with all multipliers and without those of rows that are weakly active, or nearly: these cannot be told from 0.
+    slopes: [Vec<f64>; 2],
 }
 
 impl<'w, 'p> Walk<'w, 'p> {
@@ -129,7 +129,7 @@ impl<'w, 'p> Walk<'w, 'p> {
         let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
         let worth = worst_complementarity(point, multipliers).1 * point.scale();
         let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
-        let slopes = point.row_gradient(&multipliers.rows);
+        let slopes = [&multipliers.rows, &without_weak(choice, multipliers)].map(|y| point.row_gradient(y));
         Ok(Walk {
             point,
             multipliers,
@@ -155,7 +155,8 @@ impl<'w, 'p> Walk<'w, 'p> {
     fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
-        let slope = self.slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs() / point.scale();
+        let along = |slopes: &Vec<f64>| slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs();
+        let slope = self.slopes.iter().map(along).fold(f64::INFINITY, f64::min) / point.scale();
         // ∂L/∂x_j·d_j is accepted up to optimality·σ, each.
         let accepted = self.tolerances.optimality * direction.iter().zip(&point.sizes).map(|(v, d)| (v / d).abs()).sum::<f64>();
         let longest = if slope > accepted { BEYOND_A_LIMIT } else { f64::INFINITY };
@@ -183,8 +184,8 @@ impl<'w, 'p> Walk<'w, 'p> {
 
     /// What the point's own slope may make of the way to x (of a convex function no fall is deeper), and rounding.
     fn explained(&self, x: &[f64]) -> f64 {
-        let slope = |&j: &usize| (self.slopes[j] * (x[j] - self.point.x[j])).abs();
-        2.0 * self.loose.iter().map(slope).sum::<f64>() + NOISE * self.point.scale()
+        let explained = |slopes: &Vec<f64>| self.loose.iter().map(|&j| slopes[j] * (x[j] - self.point.x[j])).sum::<f64>().abs();
+        2.0 * self.slopes.iter().map(explained).fold(f64::INFINITY, f64::min) + NOISE * self.point.scale()
     }
 
     /// Keeps x no farther away than twice the step, relative to the variables' sizes: what is farther is another valley's.
@@ -257,4 +258,11 @@ impl<'w, 'p> Walk<'w, 'p> {
         let lacks = self.held.iter().enumerate().map(lack);
         Some(slopes.chain(lacks).collect())
     }
+}
+
+/// The row multipliers but for those of weakly active rows.
+fn without_weak(choice: &Choice, multipliers: &Multipliers) -> Vec<f64> {
+    let mut y = multipliers.rows.clone();
+    choice.weak_rows.iter().for_each(|&i| y[i] = 0.0);
+    y
 }

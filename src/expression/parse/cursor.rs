@@ -41,6 +41,13 @@ impl<'a> Cursor<'a> {
         self.tokens.get(self.at + distance).map(|token| token.kind)
     }
 
+    /// Whether the call that was just opened ends with a text.
+    pub(super) fn is_before_text(&self) -> bool {
+        let closing = self.at.checked_sub(1).and_then(|open| self.partner.get(open));
+        let last = closing.and_then(|&closing| self.tokens.get(closing.checked_sub(1)?));
+        last.is_some_and(|token| matches!(token.kind, Word::Text(_)))
+    }
+
     /// The token after the partner of the bracket that comes next.
     pub(super) fn after_partner(&self) -> Option<Word<'a>> {
         let partner = self.partner.get(self.at)?;
@@ -131,7 +138,7 @@ impl<'a> Cursor<'a> {
         let after_number = self.tokens[..self.at].last().is_some_and(|token| matches!(token.kind, Word::Number(_)));
         match found {
             Word::Name(_) if operator && after_number => {
-                error.help("a product is written with `*`; numbers carry no units: all are in the file's own")
+                error.help("a product is written with `*`; this is no unit (known: mm, m, kN, MPa, kN/m, kg/m^3, …)")
             }
             Word::Number(_) | Word::Name(_) | Word::Symbol("(") if operator => error.help("a product is written with `*`"),
             Word::Symbol(",") if operator => error.help("a decimal is written with a point: 0.5"),

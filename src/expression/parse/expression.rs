@@ -3,7 +3,7 @@
 use super::chain::{self, Rank};
 use super::condition::condition;
 use super::cursor::Cursor;
-use super::{Parsed, SyntaxError};
+use super::{Parsed, SyntaxError, quantity, range};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::lexer::Word;
@@ -70,7 +70,13 @@ fn atom(cursor: &mut Cursor) -> Parsed<Ast> {
     let kind = match cursor.peek() {
         Some(Word::Number(value)) => {
             cursor.advance();
-            AstKind::Number(value)
+            match cursor.peek() {
+                Some(Word::Unit(unit, text)) => {
+                    cursor.advance();
+                    AstKind::Quantity(value, Box::new(unit), text.into())
+                }
+                _ => AstKind::Number(value),
+            }
         }
         Some(Word::Symbol("(")) => {
             cursor.advance();
@@ -111,6 +117,12 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
     let fold = fold(name);
     if let (Some(fold), Some(collection)) = (fold, collection_ahead(cursor)) {
         return over(cursor, fold, collection);
+    }
+    if let (Some(fold), Some(Word::Name(index)), Some(Word::Name("in"))) = (fold, cursor.peek(), cursor.ahead(1)) {
+        return range::over(cursor, fold, index);
+    }
+    if matches!(name, "value" | "quantity") && cursor.is_before_text() {
+        return quantity::measured(cursor, name == "value");
     }
     let arguments =
         if RESPONSES.contains(&name) { words_or_expressions(cursor, name != "frequency")? } else { arguments(cursor)? };

@@ -8,6 +8,8 @@ mod chain;
 mod condition;
 mod cursor;
 mod expression;
+mod quantity;
+mod range;
 pub(crate) use expression::RESPONSES;
 mod requirement;
 #[cfg(test)]
@@ -49,6 +51,14 @@ pub fn parse_requirement(text: &str) -> Result<Requirement, Vec<SyntaxError>> {
 /// As [`parse`].
 pub fn parse_condition(text: &str) -> Result<Condition, Vec<SyntaxError>> {
     whole(text, condition::condition)
+}
+
+/// Parses a range such as `i in 1..N`: the name and its ends.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_range(text: &str) -> Result<(String, [Ast; 2]), Vec<SyntaxError>> {
+    whole(text, range::range)
 }
 
 fn whole<'a, T>(text: &'a str, rule: fn(&mut Cursor<'a>) -> Parsed<T>) -> Result<T, Vec<SyntaxError>> {

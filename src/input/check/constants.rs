@@ -44,6 +44,7 @@ impl Assembly<'_> {
         for remark in report.warnings.into_iter().filter(|_| !self.quiet) {
             self.findings.warning(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
+        self.quantities |= report.quantities;
         for column in report.used {
             if !self.used.contains(&column) {
                 self.used.push(column);

@@ -4,13 +4,14 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Assembly;
+use crate::expression::Span;
 use crate::expression::ast::Collection;
-use crate::expression::parse::parse_condition;
+use crate::expression::parse::{parse_condition, parse_range};
 use crate::input::declaration::{ConstraintEntry, Name};
 use crate::input::source::{Place, Written};
 use crate::problem::glob::matches;
 use crate::problem::nearest::did_you_mean;
-use crate::problem::resolve::{ItemFilter, ItemScope, Stage};
+use crate::problem::resolve::{Chosen, ItemFilter, ItemScope, Stage};
 use crate::problem::{Cells, Constraint, Formula, Limit, Scope};
 use crate::sections;
 
@@ -33,7 +34,39 @@ impl Assembly<'_> {
         }
     }
 
+    /// What responses leave to the row, and the index it is stated for.
+    pub(super) fn chosen(&self) -> Chosen<'_> {
+        let index = self.index.as_ref().map(|(name, number)| (name.as_str(), *number));
+        Chosen { index, ..self.choice.chosen() }
+    }
+
+    /// `for = "i in 1..N"`: the rows of every number, called by it.
+    fn indexed(&mut self, entry: &ConstraintEntry, written: &Written, name: &str) {
+        let Some((index, ends)) = self.parsed(written, parse_range) else { return };
+        let span = Span { start: 0, end: written.text.len() };
+        let Some(numbers) = self.resolved(written, None, Stage::Constants, |resolver| resolver.range(&ends, span)) else {
+            return;
+        };
+        let before = self.findings.mistakes();
+        for number in numbers {
+            self.index = Some((index.clone(), number as f64));
+            self.rows_of(entry, format!("{name}[{number}]"));
+            // What is wrong with one row is wrong with all.
+            if self.findings.mistakes() > before {
+                break;
+            }
+        }
+        self.index = None;
+    }
+
     fn constraint(&mut self, entry: &ConstraintEntry, name: String) {
+        match &entry.index {
+            Some(written) => self.indexed(entry, written, &name),
+            None => self.rows_of(entry, name),
+        }
+    }
+
+    fn rows_of(&mut self, entry: &ConstraintEntry, name: String) {
         let scoped = match entry.repeated {
             Some(collection) => match self.scope(entry, collection, &name) {
                 Some(scope) => Some(scope),

@@ -4,6 +4,7 @@ mod ribs;
 
 use super::Assembly;
 use super::links::Link;
+use super::listing::Listing;
 use super::outlines::Points;
 use crate::input::declaration::{Declaration, DimensionEntry, Name, Range, SectionEntry};
 use crate::input::source::{Place, Written};
@@ -26,7 +27,7 @@ pub(super) struct Given<'n> {
 /// What is given for it.
 pub(super) enum GivenValue {
     Fixed(f64),
-    Own(Range<f64>),
+    Own(Range<f64>, Option<Listing>),
     Expression(Written),
 }
 
@@ -43,6 +44,15 @@ impl Assembly<'_> {
     }
 
     fn section_entry(&mut self, entry: &SectionEntry) {
+        if entry.kind.as_ref().is_some_and(|kind| kind.text == "catalogue") {
+            if let Some(s) = self.catalogue_section(entry) {
+                entry.data.iter().for_each(|(name, datum)| self.section_data.put(&name.text, s as usize, datum));
+            }
+            return;
+        }
+        if let Some(from) = &entry.from {
+            self.findings.mistake(from.place, "`from` belongs to sections of kind \"catalogue\"", "leave it out");
+        }
         let given: Vec<Given> = entry.dimensions.iter().map(|(name, value)| self.given(name, value)).collect();
         let kind = entry.kind.as_ref().and_then(|written| self.kind(&written.text, written.place));
         let points = entry.points.as_ref().map(|points| self.points(points));
@@ -61,9 +71,10 @@ impl Assembly<'_> {
         let value = match entry {
             DimensionEntry::Given(crate::input::fields::Scalar::Number(value, _)) => GivenValue::Fixed(*value),
             DimensionEntry::Given(crate::input::fields::Scalar::Expression(written)) => GivenValue::Expression(written.clone()),
-            DimensionEntry::Own(range) => {
+            DimensionEntry::Own(range, list) => {
                 let mut part = |scalar: &Option<_>| scalar.as_ref().and_then(|scalar| self.constant(scalar));
-                GivenValue::Own(Range { lower: part(&range.lower), upper: part(&range.upper), start: part(&range.start) })
+                let own = Range { lower: part(&range.lower), upper: part(&range.upper), start: part(&range.start) };
+                GivenValue::Own(own, list.as_ref().and_then(|list| self.listing(list)))
             }
         };
         Given { name: &name.text, place: name.place, value }
@@ -130,11 +141,13 @@ impl Assembly<'_> {
                 self.positive(given.name, value, given.place);
                 Dimension::Constant(value)
             }
-            GivenValue::Own(range) => {
+            GivenValue::Own(range, list) => {
                 if let Some(upper) = range.upper.filter(|upper| *upper <= 0.0) {
                     self.positive(given.name, upper, given.place);
                 }
-                Dimension::Variable(self.push_variable(Origin::Dimension(section, position), range))
+                let variable = self.push_variable(Origin::Dimension(section, position), range);
+                self.listings.extend(list.map(|list| (variable, list)));
+                Dimension::Variable(variable)
             }
             GivenValue::Expression(written) => {
                 let (place, inside) = (written.place, written.inside);

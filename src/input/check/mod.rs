@@ -4,9 +4,13 @@ mod checks;
 mod constants;
 mod constraints;
 mod data;
+mod dimensions;
 mod existence;
 mod items;
 mod links;
+mod listing;
+mod lists;
+mod objective;
 mod outlines;
 mod overrides;
 mod profiles;
@@ -22,18 +26,18 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::declaration::{Declaration, Name};
-use super::fields::Scalar;
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use super::table::Tables;
 use crate::expression::ast::Collection;
-use crate::expression::parse::{parse, parse_requirement};
 use crate::geometry::polygon::Ring;
+use crate::problem::Problem;
 use crate::problem::modes;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
-use crate::problem::{Problem, Sense};
+use crate::units::System;
 use data::DataColumns;
+pub use dimensions::{Dimensions, Measured};
 use links::Link;
 
 /// The problem while it is put together. What only reading needs is dropped in the end.
@@ -65,8 +69,22 @@ pub(super) struct Assembly<'a> {
     building: structure::Building,
     /// The row that a constraint is being spread over.
     choice: spread::Choice,
+    /// The index of the constraint at hand and its number.
+    index: Option<(String, f64)>,
     /// What a table could not give.
     without: Without,
+    /// Variables that take their values from lists.
+    listings: Vec<(u32, listing::Listing)>,
+    /// Catalogues by their names.
+    catalogues: HashMap<String, Option<Arc<lists::Catalogue>>>,
+    /// Sections that are rows of a catalogue.
+    from_catalogues: Vec<(u32, Arc<lists::Catalogue>)>,
+    /// What the file's numbers are in.
+    units: System,
+    /// Whether a number with a unit was met.
+    quantities: bool,
+    /// Columns of tables whose headers have units.
+    columns: Vec<dimensions::MeasuredColumn>,
     /// Whether the text at hand was written by a check: the user cannot do anything about what it hides or states in vain.
     quiet: bool,
 }
@@ -87,13 +105,16 @@ pub(super) fn check(
     findings: Findings,
     arguments: &[String],
     tables: &mut Tables<'_>,
-) -> (Problem, Findings) {
+) -> (Problem, Findings, Dimensions) {
     let mut assembly = Assembly::new(source, findings);
+    assembly.units = tables.units.clone();
+    assembly.quantities = !declared.measured.is_empty();
     let overrides = assembly.overrides(arguments);
     assembly.declare_names(&declared);
     assembly.parameters(&declared, &overrides);
     assembly.variables(&declared.variables);
     assembly.profiles(&declared);
+    assembly.read_catalogues(&declared.catalogues, tables);
     assembly.items(&declared);
     assembly.tables(&declared, tables);
     assembly.finish_items();
@@ -101,9 +122,10 @@ pub(super) fn check(
     if assembly.without.table {
         // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
         assembly.grammar(&declared);
-        return (assembly.problem, assembly.findings);
+        return (assembly.problem, assembly.findings, Dimensions::default());
     }
     assembly.apply(&overrides);
+    assembly.lists();
     assembly.check_variables();
     assembly.finish_structure(&declared);
     assembly.links(&declared.definitions);
@@ -114,13 +136,14 @@ pub(super) fn check(
     assembly.say_unused();
     assembly.say_unused_cases();
     assembly.problem.title = declared.title.take().unwrap_or_else(|| title(source));
-    assembly.problem.units = std::mem::take(&mut declared.units);
+    let dimensions = if assembly.findings.clean() { assembly.dimensions(&declared) } else { Dimensions::default() };
+    assembly.problem.units = declared.units.into_iter().map(|(key, label)| (key, label.text)).collect();
     assembly.problem.settings = declared.settings.clone();
     if assembly.findings.clean() {
         assembly.problem.prepare();
         modes::follow(&mut assembly.problem);
     }
-    (assembly.problem, assembly.findings)
+    (assembly.problem, assembly.findings, dimensions)
 }
 
 /// The file's stem; of a `problem.toml`, the name of its folder.
@@ -154,23 +177,15 @@ impl<'a> Assembly<'a> {
             used: Vec::new(),
             building: structure::Building::default(),
             choice: spread::Choice::default(),
+            index: None,
             without: Without::default(),
+            listings: Vec::new(),
+            catalogues: HashMap::new(),
+            from_catalogues: Vec::new(),
+            units: System::default(),
+            quantities: false,
+            columns: Vec::new(),
             quiet: false,
-        }
-    }
-
-    /// Mistakes of grammar, without looking up any name.
-    fn grammar(&mut self, declared: &Declaration) {
-        for (_, scalar) in &declared.definitions {
-            if let Scalar::Expression(written) = scalar {
-                self.parsed(written, parse);
-            }
-        }
-        if let Some((_, Some(written))) = &declared.objective {
-            self.parsed(written, parse);
-        }
-        for written in declared.constraints.iter().filter_map(|entry| entry.require.as_ref()) {
-            self.parsed(written, parse_requirement);
         }
     }
 
@@ -182,8 +197,9 @@ impl<'a> Assembly<'a> {
             parameters: &self.parameters,
             variables: &self.variables,
             definitions: &self.definitions,
+            units: &self.units,
             stage,
-            chosen: self.choice.chosen(),
+            chosen: self.chosen(),
         }
     }
 
@@ -246,26 +262,5 @@ impl<'a> Assembly<'a> {
             Place::Argument { .. } => "--set".to_owned(),
             Place::Whole => self.source.name.clone(),
         }
-    }
-
-    /// The objective; the volume where there are ribs and nothing is said.
-    fn objective(&mut self, declared: &Declaration) {
-        let (sense, written) = match &declared.objective {
-            Some((sense, Some(written))) => (*sense, written.clone()),
-            Some((_, None)) => return,
-            None if self.problem.ribs.names.is_empty() => {
-                if declared.ribs.is_empty() && declared.rib_table.is_none() {
-                    let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised";
-                    self.findings.mistake(Place::Whole, "there is no objective", help);
-                }
-                return;
-            }
-            None => (Sense::Minimize, Written { text: "volume".into(), place: Place::Whole, inside: None }),
-        };
-        self.problem.sense = sense;
-        let formula = self.scalar(&written, None).unwrap_or_default();
-        self.cells_filled(&formula, None, "the objective");
-        self.problem.objective = formula;
-        self.problem.objective_text = written.text;
     }
 }

@@ -46,7 +46,8 @@ impl Assembly<'_> {
                 self.findings.mistake(place(0, argument.len()), "`--set` needs a name, `=` and a number", help);
                 continue;
             };
-            match right.trim().parse::<f64>() {
+            let quantity = self.units.quantity(right).map(|(value, _)| value);
+            match quantity.map_or_else(|| right.trim().parse::<f64>(), Ok) {
                 Ok(value) if value.is_finite() || (value.is_infinite() && is_open_bound(left, right)) => {
                     overrides.list.push(set(left.trim(), value, place(0, left.len())))
                 }

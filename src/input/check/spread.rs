@@ -34,7 +34,14 @@ impl Choice {
     }
 
     pub(super) fn chosen(&self) -> Chosen<'_> {
-        Chosen { case: self.case, station: self.station, point: self.point.as_deref(), sign: self.sign, item: self.item }
+        Chosen {
+            case: self.case,
+            station: self.station,
+            point: self.point.as_deref(),
+            sign: self.sign,
+            item: self.item,
+            index: None,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod columns;
 
 use super::Assembly;
 use super::data::{infinite, put};
+use super::dimensions::Holder;
 use super::items::{Given, GivenValue};
 use crate::input::declaration::{Declaration, Name, Range};
 use crate::input::fields::Scalar;
@@ -30,6 +31,7 @@ impl Assembly<'_> {
         // Until the columns are known.
         (self.without.sections, self.without.table) = (true, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
+        self.columns_of(&table, Some(Holder::Sections));
         let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.section_row(&row, &columns);
@@ -72,7 +74,7 @@ impl Assembly<'_> {
             None => {
                 let [lower, upper] = [parts[0], parts[1]].map(|at| at.and_then(|at| self.bound_cell(row, at)));
                 let start = parts[2].and_then(|at| self.cell_constant(row, at));
-                GivenValue::Own(Range { lower, upper, start })
+                GivenValue::Own(Range { lower, upper, start }, None)
             }
         };
         Some(Given { name: &columns.name, place, value })
@@ -102,6 +104,7 @@ impl Assembly<'_> {
     fn rib_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
         let before = std::mem::replace(&mut self.without.table, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
+        self.columns_of(&table, Some(Holder::Ribs));
         let Some(columns) = RibColumns::of(&table, self) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.rib_row(&row, &columns);

@@ -34,6 +34,9 @@ impl Assembly<'_> {
                 };
                 self.push_variable(origin, Range { lower: None, upper: None, start: None });
             }
+            if let Some(list) = entry.list.as_ref().and_then(|list| self.listing(list)) {
+                self.listings.extend((0..size.unwrap_or(1)).map(|index| (first + index, list.clone())));
+            }
             self.fill(entry, first as usize, size);
         }
     }

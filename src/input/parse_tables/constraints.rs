@@ -17,6 +17,10 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
     let what = name.as_ref().map_or("a constraint".to_owned(), |name| format!("constraint `{}`", name.text));
     let require = fields.require("require", &what, reader).and_then(|field| field.text(reader));
     fields.finish(reader);
+    let (index, repeated) = match repeated {
+        Some(written) if written.text.contains(" in ") => (Some(written), None),
+        repeated => (None, repeated),
+    };
     let scoped = repeated.is_some();
     let repeated = repeated.and_then(|written| collection(&written, reader));
     if !scoped {
@@ -28,7 +32,7 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
     }
     // With a wrong `for` nothing is known of the names that hold.
     let require = require.filter(|_| !scoped || repeated.is_some());
-    ConstraintEntry { name, place, repeated, only, kind, filter, by, cases, require }
+    ConstraintEntry { name, place, repeated, index, only, kind, filter, by, cases, require }
 }
 
 fn collection(written: &Written, reader: &mut Reader) -> Option<Collection> {
@@ -38,7 +42,7 @@ fn collection(written: &Written, reader: &mut Reader) -> Option<Collection> {
         "nodes" => Some(Collection::Nodes),
         other => {
             let message = format!("`for` is \"{other}\"");
-            reader.findings.mistake(written.place, message, "expected \"sections\", \"ribs\" or \"nodes\"");
+            reader.findings.mistake(written.place, message, "expected \"sections\", \"ribs\", \"nodes\" or \"i in 1..N\"");
             None
         }
     }

@@ -15,8 +15,9 @@ pub(super) fn section(field: &Field, reader: &mut Reader) -> Option<SectionEntry
     let kind = fields.require("kind", &what, reader).and_then(|field| field.text(reader));
     let data = data(&mut fields, reader);
     let points = outline(&mut fields, reader);
+    let from = fields.take("from").and_then(|field| field.text(reader));
     let dimensions = fields.rest().iter().flat_map(|field| dimensions(field, reader)).collect();
-    Some(SectionEntry { name: name(field), kind, points, dimensions, data })
+    Some(SectionEntry { name: name(field), kind, from, points, dimensions, data })
 }
 
 /// `points` and `holes`.
@@ -87,17 +88,18 @@ fn dimension(field: &Field, reader: &mut Reader) -> DimensionEntry {
         && let Some(mut fields) = field.table(reader)
     {
         let own = range(&mut fields, |field, reader| field.scalar(reader), reader);
+        let list = super::lists::list(&mut fields, reader);
         fields.finish(reader);
-        return DimensionEntry::Own(own);
+        return DimensionEntry::Own(own, list);
     }
     match field.value {
         DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) => {}
         _ => {
             let what = "a number, an expression in quotes, or { lower = …, upper = …, start = … }";
-            return field.expected(what, reader).unwrap_or(DimensionEntry::Own(Default::default()));
+            return field.expected(what, reader).unwrap_or(DimensionEntry::Own(Default::default(), None));
         }
     }
-    field.scalar(reader).map_or_else(|| DimensionEntry::Own(Default::default()), DimensionEntry::Given)
+    field.scalar(reader).map_or_else(|| DimensionEntry::Own(Default::default(), None), DimensionEntry::Given)
 }
 
 /// `data = { … }`
@@ -108,11 +110,12 @@ pub(super) fn data(fields: &mut Fields, reader: &mut Reader) -> Vec<(Name, Datum
 
 fn datum(field: &Field, reader: &mut Reader) -> Option<Datum> {
     match field.value {
-        DeValue::String(text) => Some(Datum::Text(text.to_string())),
+        DeValue::String(text) => Some(field.quantity(reader).map_or_else(|| Datum::Text(text.to_string()), Datum::Number)),
         DeValue::Integer(_) | DeValue::Float(_) => field.number(reader).map(Datum::Number),
         DeValue::Array(_) => {
             let items = field.items().unwrap_or_default();
-            let numbers: Vec<f64> = items.iter().filter_map(|item| item.number(reader)).collect();
+            let number = |item: &Field, reader: &mut Reader| item.quantity(reader).or_else(|| item.number(reader));
+            let numbers: Vec<f64> = items.iter().filter_map(|item| number(item, reader)).collect();
             if items.is_empty() {
                 return field.expected("an array of one number or more", reader);
             }

@@ -7,7 +7,7 @@ use crate::input::read_text;
 fn every_kind_has_a_rule_with_its_dimensions() {
     let section = schema()["properties"]["sections"]["additionalProperties"].clone();
     let rules = section["allOf"].as_array().cloned().unwrap_or_default();
-    assert_eq!(rules.len(), sections::KINDS.len());
+    assert_eq!(rules.len(), sections::KINDS.len() + 1, "and the catalogue's");
     assert_eq!(rules[0]["then"]["required"], json!(["kind", "b", "h"]));
     for (kind, form) in sections::forms() {
         let rule = rules.iter().find(|rule| rule["if"]["properties"]["kind"]["const"] == kind.name()).expect("a rule");
@@ -22,6 +22,7 @@ fn every_kind_has_a_rule_with_its_dimensions() {
 const TABLES: &[(&str, &str)] = &[
     ("QQQQQQQ = 1", "/properties"),
     ("[variables]\nx = { QQQQQQQ = 1 }", "/properties/variables/additionalProperties/properties"),
+    ("[catalogues]\nc = { QQQQQQQ = 1 }", "/properties/catalogues/additionalProperties/anyOf/1/properties"),
     ("[profiles]\np = { QQQQQQQ = 1 }", "/properties/profiles/additionalProperties/properties"),
     ("[[ribs]]\nQQQQQQQ = 1", "/properties/ribs/items/properties"),
     ("[[ribs]]\nhinges = { QQQQQQQ = 1 }", "/properties/ribs/items/properties/hinges/anyOf/1/properties"),

@@ -1,4 +1,4 @@
-//! The same model inside other bounds.
+//! The same model inside other bounds, and with other limits of some rows.
 
 use crate::model::{Evaluation, EvaluationError, Meta, Model};
 
@@ -17,6 +17,11 @@ impl<'a> WithBounds<'a> {
         meta.clamp(&mut start);
         meta.start = start;
         WithBounds { model, meta }
+    }
+
+    /// With another upper limit of row `i`.
+    pub fn limit(&mut self, i: usize, upper: f64) {
+        self.meta.row_upper[i] = upper;
     }
 }
 

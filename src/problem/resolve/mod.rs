@@ -5,6 +5,8 @@ mod name;
 pub mod outer;
 mod over;
 mod profile;
+mod quantity;
+mod range;
 pub mod response;
 mod world;
 
@@ -37,6 +39,8 @@ pub struct Resolver<'a, 'r> {
     outer: Option<(Collection, u32)>,
     /// The collection whose groups make the rows.
     group: Option<Collection>,
+    /// Names that stand for a whole number here, the inner ones last.
+    indices: Vec<(String, f64)>,
     report: &'r mut Report,
 }
 
@@ -44,7 +48,8 @@ impl<'a, 'r> Resolver<'a, 'r> {
     /// A resolver; without a scope only global names hold.
     pub fn new(world: World<'a>, scope: Option<&'r ItemScope>, report: &'r mut Report) -> Self {
         let group = scope.filter(|scope| scope.grouped).map(|scope| scope.collection);
-        Resolver { world, scope, item: world.chosen.item, outer: None, group, report }
+        let indices = world.chosen.index.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+        Resolver { world, scope, item: world.chosen.item, outer: None, group, indices, report }
     }
 
     /// The formula of a number; `None` after a mistake.
@@ -62,6 +67,13 @@ impl<'a, 'r> Resolver<'a, 'r> {
     pub fn value(&mut self, ast: &Ast) -> Option<Value> {
         match &ast.kind {
             AstKind::Number(number) => Some(Value::Scalar(Formula::Constant(*number))),
+            AstKind::Quantity(value, unit, written) => {
+                self.say_hidden(written, ast.span);
+                let value = self.own_units(**unit, ast.span, |units| units.own(*value, **unit))?;
+                Some(Value::Scalar(Formula::Constant(value)))
+            }
+            AstKind::ValueIn(inner, unit) => self.measured(inner, **unit, Binary::Divide, ast.span),
+            AstKind::OfUnit(inner, unit) => self.measured(inner, **unit, Binary::Multiply, ast.span),
             AstKind::Text(_) => self.mistake(ast.span, "text is no number", Some("compare it in a `where`".into())),
             AstKind::Name(parts) => self.name(parts, ast.span),
             AstKind::Index(base, index) => self.index(base, index, ast.span),
@@ -82,6 +94,9 @@ impl<'a, 'r> Resolver<'a, 'r> {
             }
             AstKind::Over { fold, collection, filter, body } => {
                 self.over(*fold, *collection, filter.as_deref(), body, ast.span).map(Value::Scalar)
+            }
+            AstKind::OverRange { fold, index, ends, body } => {
+                self.over_range(*fold, index, ends, body, ast.span).map(Value::Scalar)
             }
             AstKind::Call(name, arguments) if crate::expression::parse::RESPONSES.contains(&name.as_str()) => {
                 self.response(name, arguments, ast.span)

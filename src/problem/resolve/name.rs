@@ -18,6 +18,11 @@ impl<'a> Resolver<'a, '_> {
     /// The value of a dotted name.
     pub(super) fn name(&mut self, parts: &[String], span: Span) -> Option<Value> {
         let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        if let [name] = parts[..]
+            && let Some((_, number)) = self.indices.iter().rev().find(|(known, _)| known == name)
+        {
+            return Some(Value::Scalar(Formula::Constant(*number)));
+        }
         if self.is_outer(&parts) {
             return self.outer_number(&parts[1..], span).map(Value::Scalar);
         }

@@ -79,7 +79,8 @@ impl Resolver<'_, '_> {
 
     /// The same resolver for a while.
     pub(super) fn reborrowed(&mut self) -> Resolver<'_, '_> {
-        let Resolver { world, scope, item, outer, group, .. } = *self;
-        Resolver { world, scope, item, outer, group, report: self.report }
+        let (world, scope, item, outer, group) = (self.world, self.scope, self.item, self.outer, self.group);
+        let indices = self.indices.clone();
+        Resolver { world, scope, item, outer, group, indices, report: self.report }
     }
 }

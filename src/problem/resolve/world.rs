@@ -5,6 +5,7 @@ use super::super::names::Names;
 use super::Value;
 use crate::expression::Span;
 use crate::expression::ast::Collection;
+use crate::units::System;
 
 /// Something to be said about a part of an expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub struct Report {
     pub warnings: Vec<Remark>,
     /// What responses left open.
     pub open: Open,
+    /// Whether a number with a unit occurs.
+    pub quantities: bool,
     /// Data columns that occur.
     pub used: Vec<(Collection, u32)>,
 }
@@ -54,6 +57,8 @@ pub struct World<'a> {
     pub variables: &'a [(u32, Option<u32>)],
     /// Values of definitions; `None` where a mistake was reported.
     pub definitions: &'a [Option<Value>],
+    /// What the file's numbers are in.
+    pub units: &'a System,
     /// Which of these may occur.
     pub stage: Stage,
     /// The row a constraint is being spread over.
@@ -73,6 +78,8 @@ pub struct Chosen<'a> {
     pub sign: f64,
     /// The row's item, where each is resolved by itself.
     pub item: Option<(Collection, u32)>,
+    /// The name and the number of a constraint's index.
+    pub index: Option<(&'a str, f64)>,
 }
 
 /// What responses left open while a formula was resolved: the row has to be spread over it.

@@ -6,6 +6,7 @@ mod mistakes;
 mod point;
 mod solutions;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use serde::Serialize;
@@ -81,7 +82,10 @@ impl Head<'_> {
         map.serialize_entry("objective", &findings.objective())?;
         map.serialize_entry("lower_bound", &findings.lower_bound())?;
         map.serialize_entry("volume", &findings.volumes as &Option<Volumes>)?;
-        map.serialize_entry("mass", &findings.mass)
+        map.serialize_entry("mass", &findings.mass)?;
+        let chosen: BTreeMap<&str, &str> =
+            findings.about.chosen.iter().map(|(name, row)| (name.as_str(), row.as_str())).collect();
+        if chosen.is_empty() { Ok(()) } else { map.serialize_entry("chosen", &chosen) }
     }
 }
 
@@ -138,6 +142,7 @@ struct ProblemPart<'a> {
     class: String,
     sense: &'static str,
     objective: &'a str,
+    units: BTreeMap<&'a str, &'a str>,
     changes: &'a [String],
 }
 
@@ -153,6 +158,7 @@ impl<'a> ProblemPart<'a> {
             class: findings.class.to_string(),
             sense: if findings.sign() < 0.0 { "maximize" } else { "minimize" },
             objective: &about.objective,
+            units: about.units.iter().map(|(key, label)| (key.as_str(), label.as_str())).collect(),
             changes: &about.changes,
         }
     }

@@ -32,6 +32,7 @@ pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     heading(findings, out)?;
     verdict(findings, out)?;
     point(findings, out)?;
+    chosen(findings, out)?;
     governing::write(findings, out)?;
     if let Some(table) = findings.utilisation {
         table.write(out)?;
@@ -105,6 +106,16 @@ fn point(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  … {} more in variables.csv", outcome.x.len() - MOST_LINES)?;
     }
     Ok(())
+}
+
+/// Rows of catalogues.
+fn chosen(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
+    if findings.about.chosen.is_empty() {
+        return Ok(());
+    }
+    let mut table = TextTable::new(2, &["section", "from its catalogue"]);
+    findings.about.chosen.iter().for_each(|(section, row)| table.add(vec![section.clone(), row.clone()]));
+    write!(out, "\n{table}")
 }
 
 fn minima(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {

@@ -29,7 +29,7 @@ const TABLES: [&str; 10] = [
 ];
 
 /// All pictures a run may leave.
-const PICTURES: [&str; 8] = [
+const PICTURES: [&str; 9] = [
     "convergence.svg",
     "sections.svg",
     "ribs.svg",
@@ -38,6 +38,7 @@ const PICTURES: [&str; 8] = [
     "displaced.svg",
     "forces.svg",
     "structure.vtu",
+    "report.html",
 ];
 
 /// Where a run that was cut short leaves its files beside a certified answer.

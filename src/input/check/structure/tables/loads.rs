@@ -35,6 +35,7 @@ impl Assembly<'_> {
     pub(in crate::input::check::structure) fn load_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
         let before = std::mem::replace(&mut self.without.table, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
+        self.columns_of(&table, None);
         let Some(columns) = self.load_columns(&table) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.load_row(&row, &columns);

@@ -2,6 +2,7 @@
 
 use super::super::super::Assembly;
 use super::super::super::data::put;
+use super::super::super::dimensions::Holder;
 use super::super::nodes::UNKNOWN;
 use super::{filled, require, scalar};
 use crate::input::declaration::Name;
@@ -24,6 +25,7 @@ impl Assembly<'_> {
         let before = std::mem::replace(&mut self.without.table, true);
         self.building.incomplete = true;
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
+        self.columns_of(&table, Some(Holder::Nodes));
         let Some(columns) = self.node_columns(&table) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.node_row(&row, &columns);

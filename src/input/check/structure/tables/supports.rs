@@ -25,6 +25,7 @@ impl Assembly<'_> {
             self.building.unsupported = true;
             return;
         };
+        self.columns_of(&table, None);
         let Some(columns) = self.support_columns(&table) else {
             self.building.unsupported = true;
             return;

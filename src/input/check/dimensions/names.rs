@@ -1,0 +1,210 @@
+//! Dimensions of names: properties of sections and ribs are known, those of the user's own names are looked for.
+
+use super::Holder;
+use super::walk::{Scope, Walk};
+use crate::expression::ast::{Ast, AstKind, Collection};
+use crate::input::source::Written;
+use crate::problem::names::Entity;
+use crate::problem::sections_form;
+use crate::sections;
+use crate::units::Dimension;
+use crate::units::inference::Form;
+
+/// Exponent of length of a section's property by its name; `None` where that depends on the kind or on the user's points.
+fn property(name: &str, kind: Option<&str>) -> Option<i64> {
+    match name {
+        "A" | "Asx" | "Asy" => Some(2),
+        "Ix" | "Iy" | "Ixy" | "Imin" | "J" => Some(4),
+        "Iw" => Some(6),
+        "r" => match kind? {
+            // The exponent of a superellipse; the radius of an H beam's root.
+            "superellipse" => Some(0),
+            _ => Some(1),
+        },
+        _ if name.starts_with("scale") => None,
+        _ if name.starts_with('W') => Some(3),
+        _ => Some(1),
+    }
+}
+
+impl From<Collection> for Holder {
+    fn from(collection: Collection) -> Holder {
+        match collection {
+            Collection::Ribs => Holder::Ribs,
+            Collection::Sections => Holder::Sections,
+            Collection::Nodes => Holder::Nodes,
+        }
+    }
+}
+
+/// The word for it in keys.
+fn word(holder: Holder) -> &'static str {
+    match holder {
+        Holder::Sections => "sections",
+        Holder::Ribs => "ribs",
+        Holder::Nodes => "nodes",
+    }
+}
+
+impl Walk<'_, '_> {
+    /// A datum; all elements of an array of data have one dimension.
+    pub fn datum(&mut self, holder: Holder, name: &str) -> Form {
+        let base = name.split('[').next().unwrap_or(name);
+        if holder == Holder::Nodes && ["x", "y", "z"].contains(&base) {
+            return Dimension::LENGTH.into();
+        }
+        self.unknown(format!("data of {}: {base}", word(holder)))
+    }
+
+    /// A dimension or property of a section of some kind, else its datum.
+    pub fn of_section(&mut self, kind: Option<&str>, name: &str) -> Form {
+        let base = name.split('[').next().unwrap_or(name);
+        let offers = |kind: &&dyn sections::Kind| kind.properties().iter().any(|known| *known == name || *known == base);
+        let offered = match kind.and_then(sections::kind) {
+            Some(kind) => offers(&kind),
+            None => self.kinds().iter().any(offers),
+        };
+        if !offered {
+            return self.datum(Holder::Sections, name);
+        }
+        let only = self.kinds().into_iter().find(|_| kind.is_none()).map(|kind| kind.name());
+        match property(base, kind.or(only)) {
+            Some(power) => Dimension::whole([power, 0, 0, 0]).into(),
+            None => self.unknown(format!("property: {base}")),
+        }
+    }
+
+    /// Kinds of the file's sections.
+    fn kinds(&self) -> Vec<&'static dyn sections::Kind> {
+        let mut forms = self.assembly.problem.sections.form.clone();
+        forms.sort_unstable();
+        forms.dedup();
+        forms.into_iter().map(sections::kind_of).collect()
+    }
+
+    /// Whether items of this collection have a number of this name of their own.
+    fn is_own(&self, holder: Holder, name: &str) -> bool {
+        let collection = match holder {
+            Holder::Sections => Collection::Sections,
+            Holder::Ribs => Collection::Ribs,
+            Holder::Nodes => Collection::Nodes,
+        };
+        let columns = self.assembly.problem.columns(collection);
+        let is_datum = columns.iter().any(|column| column.name.split('[').next() == Some(name));
+        let is_property = match holder {
+            Holder::Sections => self.kinds().iter().any(|kind| kind.properties().contains(&name)),
+            Holder::Ribs => ["length", "volume"].contains(&name),
+            Holder::Nodes => false,
+        };
+        is_datum || is_property
+    }
+
+    /// A name, the item's own first.
+    pub fn named(&mut self, parts: &[String], scope: Scope) -> Form {
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        match (scope.holder, &parts[..]) {
+            (_, [name]) if self.indices.iter().any(|index| index == name) => Dimension::NONE.into(),
+            (Some(holder), [name]) if scope.itself != Some(name) && self.is_own(holder, name) => match (holder, *name) {
+                (Holder::Sections, name) => self.of_section(None, name),
+                (Holder::Ribs, "length") => Dimension::LENGTH.into(),
+                (Holder::Ribs, "volume") => Dimension::whole([3, 0, 0, 0]).into(),
+                (holder, name) => self.datum(holder, name),
+            },
+            (Some(Holder::Ribs), ["from" | "to" | "at", name]) => self.of_section(None, name),
+            (Some(Holder::Ribs), ["material", name]) => self.of_material(name),
+            (_, ["outer", ..]) => self.inference.unknown(),
+            (_, [name]) => self.global(name),
+            (_, [item, name]) => self.of_item(item, name),
+            (_, [rib, end @ ("from" | "to"), name]) => self.at_end(rib, end, name),
+            _ => self.inference.unknown(),
+        }
+    }
+
+    fn global(&mut self, name: &str) -> Form {
+        match self.assembly.names.find(&self.assembly.problem, name) {
+            Some(_) => self.unknown(format!("name: {name}")),
+            None => match name {
+                "pi" => Dimension::NONE.into(),
+                "volume" | "volume_frustum" | "volume_prismatoid" => Dimension::whole([3, 0, 0, 0]).into(),
+                "weight" => Dimension::FORCE.into(),
+                "mass" => {
+                    // Densities may be of mass or of weight: as gravity goes with them.
+                    let density = self.of_material("density");
+                    let volume = Form::from(Dimension::whole([3, 0, 0, 0]));
+                    volume.times(&density, crate::units::Ratio::ONE).unwrap_or_else(|| self.inference.unknown())
+                }
+                _ => self.inference.unknown(),
+            },
+        }
+    }
+
+    fn of_item(&mut self, item: &str, name: &str) -> Form {
+        match self.assembly.names.find(&self.assembly.problem, item) {
+            Some(Entity::Section(s)) => {
+                let kind = sections_form(&self.assembly.problem, s as usize).map(|form| form.kind);
+                self.of_section(kind, name)
+            }
+            Some(Entity::Rib(_)) if name == "length" => Dimension::LENGTH.into(),
+            Some(Entity::Rib(_)) if name == "volume" => Dimension::whole([3, 0, 0, 0]).into(),
+            Some(Entity::Rib(_)) => self.datum(Holder::Ribs, name),
+            _ => self.inference.unknown(),
+        }
+    }
+
+    fn at_end(&mut self, rib: &str, end: &str, name: &str) -> Form {
+        let Some(Entity::Rib(r)) = self.assembly.names.find(&self.assembly.problem, rib) else { return self.inference.unknown() };
+        let ribs = &self.assembly.problem.ribs;
+        let s = if end == "from" { ribs.from[r as usize] } else { ribs.to[r as usize] };
+        let kind = sections_form(&self.assembly.problem, s as usize).map(|form| form.kind);
+        self.of_section(kind, name)
+    }
+
+    /// A number of a material.
+    pub fn of_material(&mut self, name: &str) -> Form {
+        match name {
+            "E" | "G" => Dimension::STRESS.into(),
+            "nu" => Dimension::NONE.into(),
+            "alpha" => Dimension::whole([0, 0, 0, -1]).into(),
+            _ => self.unknown(format!("material: {name}")),
+        }
+    }
+
+    /// A response, or a profile.
+    pub fn call(&mut self, name: &str, arguments: &[Ast], written: &Written, scope: Scope) -> Form {
+        let said = |word: &str| arguments.iter().any(|argument| is_word(argument, word));
+        let turns = ["rx", "ry", "rz"].into_iter().any(&said);
+        let dimension = match name {
+            "disp" if turns => Dimension::NONE,
+            "disp" | "deflection" | "sag" => Dimension::LENGTH,
+            "reaction" if turns => Dimension::MOMENT,
+            "reaction" => Dimension::FORCE,
+            "force" if ["T", "My", "Mz"].into_iter().any(said) => Dimension::MOMENT,
+            "force" => Dimension::FORCE,
+            "stress" | "vonmises" => Dimension::STRESS,
+            "compliance" => Dimension::MOMENT,
+            "buckling" => Dimension::NONE,
+            "frequency" => Dimension::whole([0, 0, -1, 0]),
+            "profile" => {
+                if let [_, at] = arguments {
+                    let form = self.expression(at, written, scope);
+                    self.needed(written, at.span, &form, &Dimension::NONE.into(), "a place along a profile");
+                }
+                let controls = arguments.first().and_then(|first| match &first.kind {
+                    AstKind::Name(parts) => parts.first().cloned(),
+                    _ => None,
+                });
+                return self.unknown(format!("name: {}", controls.unwrap_or_default()));
+            }
+            _ => return self.inference.unknown(),
+        };
+        dimension.into()
+    }
+}
+
+fn is_word(argument: &Ast, word: &str) -> bool {
+    match &argument.kind {
+        AstKind::Name(parts) => parts[..] == [word],
+        AstKind::Text(text) => text == word,
+        _ => false,
+    }
+}

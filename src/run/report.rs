@@ -1,0 +1,73 @@
+//! `report`: the page about a run, from what it left in its folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::RunError;
+use crate::files::{Inputs, whole};
+use crate::input;
+use crate::report::page::{Left, page};
+use crate::report::result::FORMAT;
+
+/// The page's file beside a run's other files.
+pub const PAGE: &str = "report.html";
+
+/// Tables the page shows.
+const TABLES: [&str; 5] = ["variables.csv", "sizes.csv", "volumes.csv", "limits.csv", "utilisation.csv"];
+
+/// Writes the page about the run in a folder (or whose `result.json` is given) to `out`, or beside the run's files; brings back where it is.
+///
+/// # Errors
+/// No result there, an input where the page would stand, or a file that cannot be written.
+pub fn report(given: &Path, out: Option<&Path>) -> Result<PathBuf, RunError> {
+    let (folder, file) = match given.is_dir() {
+        true => (given.to_path_buf(), given.join("result.json")),
+        false => (given.parent().unwrap_or(Path::new("")).to_path_buf(), given.to_path_buf()),
+    };
+    let out = out.map_or_else(|| folder.join(PAGE), Path::to_path_buf);
+    let (left, read) = left(&folder, &file)?;
+    Inputs::new(read).spare([out.clone()])?;
+    let html = page(&left);
+    let mut set = whole::Set::default();
+    let unwritable = |path: &Path, cause: std::io::Error| RunError::Choice(format!("cannot write {}: {cause}", path.display()));
+    set.write(&out, |to| to.write_all(html.as_bytes())).map_err(|cause| unwritable(&out, cause))?;
+    set.swap().map_err(|(path, cause)| unwritable(&path, cause))?;
+    Ok(out)
+}
+
+/// What the folder holds, and every file that was read.
+fn left(folder: &Path, file: &Path) -> Result<(Left, Vec<PathBuf>), RunError> {
+    let refused = |cause: String| {
+        RunError::Choice(format!("{}: {cause}; give the folder of a run of `ribopt solve`, or its result.json", file.display()))
+    };
+    let text = fs::read_to_string(file).map_err(|error| refused(error.to_string()))?;
+    let result: Value = serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?;
+    if result.get("format").and_then(Value::as_str) != Some(FORMAT) {
+        return Err(refused(format!("this is no result of format {FORMAT}")));
+    }
+    let beside = |name: &str| Some((name.to_owned(), fs::read_to_string(folder.join(name)).ok()?));
+    let pictures = fs::read_dir(folder).map(|entries| entries.flatten().map(|entry| entry.file_name()).collect::<Vec<_>>());
+    let pictures = pictures.unwrap_or_default().into_iter().filter_map(|name| name.into_string().ok());
+    let pictures: Vec<_> = pictures.filter(|name| name.ends_with(".svg")).filter_map(|name| beside(&name)).collect();
+    let tables = TABLES.iter().filter_map(|name| beside(name)).collect();
+    let (inputs, unchanged) = inputs(&result);
+    let shown = TABLES.iter().map(|name| folder.join(name)).chain(pictures.iter().map(|(name, _)| folder.join(name)));
+    let read = inputs.iter().map(|(name, _)| name.into()).chain(shown).chain([file.to_path_buf()]).collect();
+    Ok((Left { result, tables, pictures, inputs, unchanged }, read))
+}
+
+/// The problem file and its tables, and whether they are those that were solved.
+fn inputs(result: &Value) -> (Vec<(String, String)>, Option<bool>) {
+    let text = |pointer: &str| result.pointer(pointer).and_then(Value::as_str).unwrap_or_default();
+    let file = Path::new(text("/problem/file"));
+    let with_text = |path: &Path| Some((path.display().to_string(), fs::read_to_string(path).ok()?));
+    match input::read(file) {
+        Ok(input) => {
+            let unchanged = input.sha256 == text("/problem/sha256");
+            (input.files.iter().filter_map(|path| with_text(path)).collect(), Some(unchanged))
+        }
+        Err(_) => (with_text(file).into_iter().collect(), None),
+    }
+}
