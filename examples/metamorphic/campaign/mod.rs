@@ -101,7 +101,7 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     fs::create_dir_all(&plan.folder).map_err(|cause| format!("{}: {cause}", plan.folder.display()))?;
     let mut files: Vec<PathBuf> =
         plan.folders.iter().flat_map(|folder| support::problem_files(&folder.to_string_lossy())).collect();
-    files.retain(|file| !plan.without.iter().any(|part| file.to_string_lossy().contains(part)));
+    files.retain(|file| !plan.without.iter().any(|part| file.to_string_lossy().contains(part)) && is_transformable(file));
     // No more of them than runs: a sample needs no more.
     Random::of_run(plan.seed, usize::MAX).shuffle(&mut files);
     files.truncate(plan.first + plan.count);
@@ -133,6 +133,12 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     found.findings.sort_by_key(|finding| (finding.fault.0, finding.problem.clone(), finding.run));
     found.seconds = begin.elapsed().as_secs_f64();
     Ok(found)
+}
+
+/// Whether transformations leave the problem what it is: a logarithm of a length is none, and other variables have other lists.
+fn is_transformable(file: &Path) -> bool {
+    let other = |input: ribopt::input::Input| input.dimensions.quantities || !input.problem.listed.is_empty();
+    !ribopt::input::read(file).is_ok_and(other)
 }
 
 /// Results 0 … n − 1 by so many threads. Not by rayon: a solve waiting for its own parts there would take up another run meanwhile,

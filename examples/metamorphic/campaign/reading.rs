@@ -15,14 +15,7 @@ use super::words::replace_names;
 /// Reads a file; its numbers are ribopt's own reading of it.
 pub fn read(path: &Path) -> Result<Draft, String> {
     let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
-    let input = input::read(path).map_err(|mistakes| mistakes.to_string())?;
-    if input.dimensions.quantities {
-        return Err("it has units, and a logarithm of a length is none".into());
-    }
-    let problem = input.problem;
-    if !problem.listed.is_empty() {
-        return Err("its sizes come from lists, which other variables do not have".into());
-    }
+    let problem = input::read(path).map_err(|mistakes| mistakes.to_string())?.problem;
     let mut table: Table = text.parse().map_err(|cause: toml::de::Error| cause.to_string())?;
     let (document, _) = DeTable::parse_recoverable(&text);
     let mut entries = |key: &str| -> Entries {

@@ -52,7 +52,7 @@ fn number(value: Option<&Value>) -> String {
 /// use ribopt::report::page::{Left, page};
 /// let result = serde_json::json!({ "status": "certified", "problem": { "title": "One <rib>" }, "objective": 1.5 });
 /// let html = page(&Left { result, ..Left::default() });
-/// assert!(html.contains("One &lt;rib&gt;") && !html.contains("http"));
+/// assert!(html.contains("One &lt;rib&gt;") && !html.contains("://"));
 /// ```
 pub fn page(left: &Left) -> String {
     let title = left.text("/problem/title");
