@@ -11,14 +11,7 @@ use ribopt::run::{Choice, Subject};
 use support::{Promise, diagnosis, name, problem_files, read, solve};
 
 /// Backend, problem, and why the one need not solve the other.
-const EXCLUDED: &[(&str, &str, &str)] = &[
-    (
-        "nlopt",
-        "strongest-column",
-        "ends within 1e-9 of an optimum that has no derivatives in single modes; slopes there are not exact enough",
-    ),
-    ("nlopt", "ten-bar-frequencies", "the same"),
-];
+const EXCLUDED: &[(&str, &str, &str)] = &[];
 
 /// Relative distance to the known optimum.
 const ACCURACY: f64 = 1e-7;
