@@ -154,6 +154,23 @@ fn an_optimum_with_two_equal_frequencies_is_certified() {
     assert!(found.lower_bound.unwrap() >= (1.0 - 1e-6) * found.objective.unwrap());
 }
 
+/// The same limit in other words has the same optimum, certified as well.
+#[test]
+fn limits_on_coinciding_frequencies_are_known_in_every_form() {
+    let direct = cross("{ lower = 1e-6, start = 1e-3 }");
+    for (form, definitions) in [
+        ("f1 >= 30", "f1 = \"frequency(1)\""),
+        ("1/frequency(1)^2 <= 1/900", ""),
+        ("2 - f1/10 <= -1", "f1 = \"frequency(1)\""),
+        ("-3*frequency(1) <= -90", ""),
+    ] {
+        let text = direct.replace("frequency(1) >= 30", form) + "[definitions]\n" + definitions;
+        let found: Outcome = outcome(&read(form, &text)).unwrap();
+        assert_eq!((found.status, found.scope), (Status::Certified, Extent::Global), "{form}: {}", found.message);
+        assert!((found.objective.unwrap() / (2.0 * least_area()) - 1.0).abs() < 1e-8, "{form}: {:?}", found.x);
+    }
+}
+
 /// `verify` proves the point itself, neither one beside it that is heavier nor one that is too light.
 #[test]
 fn coinciding_frequencies_are_verified() {

@@ -76,7 +76,7 @@ fn is_affine(problem: &Problem) -> bool {
 fn cuts(subject: &Subject, limit: &Limited, x: &[f64]) -> Result<Vec<Constraint>, EvaluationError> {
     let Some(model) = subject.analysis() else { return Ok(Vec::new()) };
     let z = model.solved(x)?;
-    let vectors = model.lifted().modes()?.spectrum(&z, limit.pencil)?.vectors;
+    let vectors = model.lifted().modes()?.spectrum(&z, limit.pencil, MODES)?.vectors;
     let mut rows = Vec::new();
     for w in vectors.iter().take(MODES) {
         let (slope, value) = model.lifted().modes()?.cut(&z, w, limit.pencil, limit.limit)?;

@@ -9,6 +9,7 @@ mod coinciding;
 pub mod compare;
 mod courses;
 pub mod folder;
+mod further;
 mod lists;
 mod matrix_bound;
 pub mod network;

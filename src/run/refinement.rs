@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::Subject;
 use crate::model::{EvaluationError, Lifted, Reduced};
-use crate::problem::modes::{Eigenvalue, Pencil, defined, eigenvalues};
+use crate::problem::modes::{Eigenvalue, NEVER, Pencil, defined, eigenvalues};
 use crate::problem::{Constraint, Formula, Problem, Scope};
+use crate::report::number::significant;
 
 /// The lowest factors or frequencies of a structure.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +24,8 @@ pub struct Lowest {
 /// Eigenvalues listed per case.
 const LISTED: usize = 3;
 
-/// More members than this are not looked at again unasked: matrices of modes are dense.
-const MOST_MEMBERS: usize = 200;
+/// More members than this are not looked at again unasked: it takes three times as long as the analysis itself.
+const MOST_MEMBERS: usize = 1000;
 
 /// Structures of so many members have their eigenvalues told unasked.
 const FEW_MEMBERS: usize = 40;
@@ -70,7 +71,9 @@ pub(super) fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
         };
         let (pieces, twice) = (found.pieces, 2 * found.pieces);
         Some(format!(
-            "{what} is {first:.6} with {pieces} pieces per rib, {finer:.6} with {twice} ({:+.2} %)",
+            "{what} is {} with {pieces} pieces per rib, {} with {twice} ({:+.2} %)",
+            significant(*first, 7),
+            significant(*finer, 7),
             100.0 * (finer / first - 1.0)
         ))
     };
@@ -104,6 +107,7 @@ fn solved(problem: &Problem, pencil: Pencil, x: &[f64]) -> Result<Vec<f64>, Eval
     let failed = |cause: String| EvaluationError::Invalid { term: "modes of the structure".into(), cause };
     let lifted = Lifted::of(&Arc::new(asked)).map_err(|error| failed(error.to_string()))?;
     let model = Reduced::of(lifted, false).ok_or_else(|| failed("there are no states".into()))?;
-    let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil)?;
-    Ok(spectrum.values.iter().filter(|mu| **mu > 0.0).take(LISTED).map(|&mu| pencil.shown(mu)).collect())
+    let spectrum = model.lifted().modes()?.spectrum(&model.solved(x)?, pencil, LISTED)?;
+    let shown = spectrum.values.iter().map(|&mu| pencil.shown(mu));
+    Ok(shown.filter(|value| *value < NEVER).take(LISTED).collect())
 }

@@ -5,16 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use super::bounded::bound_below;
 use super::choice::{Choice, choose, refuse_if_none_accepts};
-use super::coinciding;
 use super::courses::courses;
 use super::folder::{Folder, default_folder};
+use super::further::Further;
 use super::observe::Records;
-use super::present::present;
 use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
-use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, strongest, structure_files, utilisation, vanished};
+use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, strongest, structure_files, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::problem::Settings;
@@ -101,9 +100,10 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
         starts: request.starts,
         ..subject.task(&start, request.interrupt)
     };
-    let mut outcome = present(subject, records.watch(&task, &request.choices, watcher));
-    let among = Among::of(request, subject, &remaining);
-    let judged = settled(subject, &mut outcome, &mut about, &among);
+    let further =
+        Further { choices: &request.choices, settings: &subject.settings, remaining: &remaining, interrupt: request.interrupt };
+    let (mut outcome, judged) = further.judged(subject, &task, |task| records.watch(task, &request.choices, watcher));
+    let judged = followed_up(subject, (&mut outcome, judged), &mut about, &further);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
@@ -160,60 +160,28 @@ pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) ->
     let remaining = Remaining::new();
     let task = Task { settings, ..subject.task(&subject.model().meta().start, None) };
     refuse_if_none_accepts(choices, &task)?;
-    let mut outcome = present(subject, unobserved(&task, choices));
-    let among = Among { choices, settings, remaining: &remaining, interrupt: None };
-    settled(subject, &mut outcome, &mut About::default(), &among);
+    let further = Further { choices, settings, remaining: &remaining, interrupt: None };
+    let (mut outcome, judged) = further.judged(subject, &task, |task| unobserved(task, choices));
+    followed_up(subject, (&mut outcome, judged), &mut About::default(), &further);
     Ok(outcome)
 }
 
-/// What further runs of a command go by.
-struct Among<'a> {
-    choices: &'a [Choice],
-    settings: &'a Settings,
-    remaining: &'a Remaining,
-    interrupt: Option<&'a AtomicBool>,
-}
-
-impl<'a> Among<'a> {
-    fn of(request: &'a Request<'_>, subject: &'a Subject, remaining: &'a Remaining) -> Among<'a> {
-        Among { choices: &request.choices, settings: &subject.settings, remaining, interrupt: request.interrupt }
-    }
-
-    /// One start of every backend from a point of the user's variables; `None` where no time is left for it.
-    fn nearby(&self, subject: &Subject, x: &[f64]) -> Option<Outcome> {
-        let settings = self.remaining.settings(self.settings)?;
-        let start = subject.completed(x.to_vec());
-        let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
-        Some(present(subject, unobserved(&task, self.choices)))
-    }
-}
-
-/// What follows the cross-checked run: structures looked at anew, sizes chosen from lists, bounds; the problem the outcome is of then.
-fn settled(subject: &Subject, outcome: &mut Outcome, about: &mut About, among: &Among<'_>) -> Option<Subject> {
-    let judged = looked_at_anew(subject, outcome, among);
-    if let Some(chosen) = sizes_from_lists(subject, outcome, among) {
+/// What follows an outcome and the problem it is of: sizes chosen from lists, bounds; the problem it is of then.
+fn followed_up(
+    subject: &Subject,
+    (outcome, judged): (&mut Outcome, Option<Subject>),
+    about: &mut About,
+    further: &Further<'_>,
+) -> Option<Subject> {
+    let again = |rest: &Subject, x: &[f64]| further.nearby(rest, x);
+    if let Some(chosen) = lists::choose(subject, further.settings, outcome, again, further.remaining, further.interrupt) {
+        *outcome = chosen.outcome;
         about.chosen = chosen.rows;
         return chosen.subject;
     }
-    bound_below(subject, outcome, among.remaining, among.interrupt);
-    strongest::explain(subject, outcome, among.remaining);
+    bound_below(subject, outcome, further.remaining, further.interrupt);
+    strongest::explain(subject, outcome, further.remaining);
     judged
-}
-
-/// The best choice from the file's lists, in the place of the outcome with free sizes; `None` where there are no lists.
-fn sizes_from_lists(subject: &Subject, outcome: &mut Outcome, among: &Among<'_>) -> Option<lists::Chosen> {
-    let again = |rest: &Subject, x: &[f64]| among.nearby(rest, x);
-    let chosen = lists::choose(subject, among.settings, outcome, again, among.remaining, among.interrupt)?;
-    *outcome = chosen.outcome.clone();
-    Some(chosen)
-}
-
-/// Judges an outcome anew where modes coincide or bars have vanished: the problem it is then an outcome of.
-fn looked_at_anew(subject: &Subject, outcome: &mut Outcome, among: &Among<'_>) -> Option<Subject> {
-    let again = |rest: &Subject, x: &[f64]| among.nearby(rest, x);
-    let settled = coinciding::settle(subject, outcome, again).or_else(|| vanished::settle(subject, outcome, again))?;
-    *outcome = settled.outcome;
-    Some(settled.subject)
 }
 
 fn starting_point(subject: &Subject, answer: Option<&EarlierAnswer>, warnings: &mut Vec<String>) -> (Vec<f64>, Option<Vec<f64>>) {

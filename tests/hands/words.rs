@@ -98,7 +98,7 @@ fn huge_numbers_are_no_rows_of_digits() {
 fn a_unit_after_a_number_is_no_forgotten_product() {
     let file = X.replace("y = {", "z = {") + "[[constraints]]\nrequire = \"x + 2.5 m <= 3\"\n";
     let (_, _, err) = Place::new(&[("u.toml", &file)]).said("check u.toml");
-    assert!(err.contains("numbers carry no units"), "{err}");
+    assert!(err.contains("in which unit of length") && !err.contains("product"), "{err}");
 }
 
 #[test]

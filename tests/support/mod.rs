@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ribopt::backends::Iteration;
-use ribopt::crosscheck::{self, Outcome, Status, Task};
+use ribopt::crosscheck::{Outcome, Status};
 use ribopt::problem::Settings;
+use ribopt::run::solve::outcome_by;
 use ribopt::run::{Choice, Subject};
 
 /// What a problem file says of its answer, in comments: `# optimum: 1.5`, further `# local: 2.5` lines for minima that are
@@ -77,24 +77,9 @@ pub fn read(path: &Path) -> Subject {
     Subject::read(path, &[]).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
-/// One cross-checked run from the file's start.
+/// One run from the file's start, as the command makes it.
 pub fn solve(subject: &Subject, choices: &[Choice], settings: &Settings) -> Outcome {
-    if !subject.problem().listed.is_empty() {
-        return ribopt::run::solve::outcome_by(subject, choices, settings).unwrap_or_else(|error| panic!("{error}"));
-    }
-    let task = Task {
-        model: subject.model(),
-        substitution: subject.substitution(),
-        class: subject.class(),
-        settings,
-        start: &subject.model().meta().start,
-        start_multipliers: None,
-        starts: 1,
-        interrupt: None,
-    };
-    let backends: Vec<_> = choices.iter().map(|choice| (choice.backend, choice.algorithm.as_str())).collect();
-    let mut unobserved = |_: usize, _: &str| -> Box<dyn FnMut(&Iteration<'_>)> { Box::new(|_: &Iteration<'_>| {}) };
-    crosscheck::run(&task, &backends, &mut unobserved)
+    outcome_by(subject, choices, settings).unwrap_or_else(|refused| panic!("{refused}"))
 }
 
 /// The answers one by one: how each run stopped and what its point measures.

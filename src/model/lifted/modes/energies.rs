@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use super::super::{Numbering, with_inputs};
 use super::directions::{Directions, map_inputs, mode_directions};
-use crate::linear_algebra::pencil::Symmetric;
+use crate::linear_algebra::Pattern;
+use crate::linear_algebra::pencil::Matrix;
 use crate::model::views::mapped::{Mapped, Maps};
 use crate::model::{AssemblyError, EvaluationError, Meta, Model, RibModel, assemble};
 use crate::problem::formula::{Energy, Response, Subject, What};
@@ -27,6 +28,9 @@ pub(super) struct Energies {
     /// Springs and masses at nodes: what they add to the diagonals of K and M.
     springs: Diagonal,
     masses: Diagonal,
+    /// Where the entries of K, G and M stand, and which of the energies' second derivatives they are.
+    pattern: Arc<Pattern>,
+    places: Vec<(usize, usize)>,
 }
 
 /// Entries on a diagonal.
@@ -38,8 +42,8 @@ pub(super) struct Derivatives {
     pub slope: Vec<f64>,
     /// wᵀS_zz'w, by (z, z') with z' ≤ z.
     pub curvature: Vec<(usize, usize, f64)>,
-    /// S_z·w, by z.
-    pub mixed: Vec<Vec<f64>>,
+    /// S_z·w, by z: its entries that are not zero.
+    pub mixed: Vec<Vec<(usize, f64)>>,
 }
 
 impl Energies {
@@ -78,7 +82,8 @@ impl Energies {
         };
         let model = Mapped::new(inner, maps, meta);
         let (springs, masses) = at_nodes(structure, &directions);
-        Ok(Energies { model, before, sets, springs, masses })
+        let (pattern, places) = in_mode(&model.meta().hessian, before);
+        Ok(Energies { model, before, sets, springs, masses, pattern, places })
     }
 
     /// Number of displacements in a mode.
@@ -118,22 +123,25 @@ impl Energies {
     }
 
     /// k·K + b·B.
-    pub fn matrix(&self, z: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Symmetric, EvaluationError> {
-        let pattern = &self.model.meta().hessian;
-        let mut values = vec![0.0; pattern.len()];
+    pub fn matrix(&self, z: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Matrix, EvaluationError> {
+        let mut values = vec![0.0; self.model.meta().hessian.len()];
         let point = self.point(z, &vec![0.0; self.order()]);
         self.model.hessian(&point, 0.0, &self.weights(pencil, k, b), &mut values)?;
-        let mut matrix = Symmetric::zeros(self.order());
-        for ((row, column), value) in pattern.iter().zip(values) {
-            if column >= self.before {
-                matrix.add(row - self.before, column - self.before, value);
-            }
-        }
-        self.springs.iter().for_each(|&(at, stiffness)| matrix.add(at, at, k * stiffness));
+        let mut matrix = Matrix::zeros(Arc::clone(&self.pattern));
+        self.places.iter().for_each(|&(from, to)| matrix.values[to] = values[from]);
+        self.add(&mut matrix, &self.springs, k);
         if pencil == Pencil::Vibration {
-            self.masses.iter().for_each(|&(at, mass)| matrix.add(at, at, b * mass));
+            self.add(&mut matrix, &self.masses, b);
         }
         Ok(matrix)
+    }
+
+    fn add(&self, matrix: &mut Matrix, diagonal: &Diagonal, share: f64) {
+        for &(at, value) in diagonal {
+            // The whole diagonal is in the pattern.
+            let place = self.pattern.position(at, at as u32).unwrap_or_default();
+            matrix.values[place] += share * value;
+        }
     }
 
     /// wᵀS_zw of S = k·K + b·B, by design and displacements.
@@ -158,14 +166,28 @@ impl Energies {
             if row < self.before {
                 curvature.push((row, column, 2.0 * value));
             } else if column < self.before {
-                if mixed[column].is_empty() {
-                    mixed[column] = vec![0.0; self.order()];
-                }
-                mixed[column][row - self.before] = value;
+                mixed[column].push((row - self.before, value));
             }
         }
         Ok(Derivatives { slope: self.slope(z, w, pencil, k, b)?, curvature, mixed })
     }
+}
+
+/// The pattern of second derivatives by the mode, with the whole diagonal, and which of all they are.
+fn in_mode(hessian: &Pattern, before: usize) -> (Arc<Pattern>, Vec<(usize, usize)>) {
+    let own = || hessian.iter().enumerate().filter(|(_, (_, column))| *column >= before);
+    let place = |row: usize, column: usize| ((row - before) as u32, (column - before) as u32);
+    let order = hessian.rows() - before;
+    let mut positions: Vec<(u32, u32)> = own().map(|(_, (row, column))| place(row, column)).collect();
+    positions.extend((0..order as u32).map(|at| (at, at)));
+    let pattern = Pattern::from_positions(order, &mut positions);
+    let to = |row, column| {
+        let (row, column) = place(row, column);
+        // Every position was announced above.
+        pattern.position(row as usize, column).unwrap_or_default()
+    };
+    let places = own().map(|(from, (row, column))| (from, to(row, column))).collect();
+    (Arc::new(pattern), places)
 }
 
 /// The cases and combinations whose axial forces count.

@@ -7,26 +7,29 @@
 
 mod directions;
 mod energies;
+mod smooth;
 mod with_modes;
 
 pub(super) use with_modes::WithModes;
 
 use super::Numbering;
-use crate::linear_algebra::pencil::{Bordered, Spectrum, Symmetric, spectrum};
+use crate::linear_algebra::FactorizationError;
+use crate::linear_algebra::pencil::{Complement, Matrix, Spectrum, spectrum};
 use crate::model::{AssemblyError, EvaluationError};
 use crate::problem::Problem;
-use crate::problem::modes::{Cut, Eigenvalue, Pencil};
+use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use energies::{Derivatives, Energies};
+use smooth::{Smooth, chained, turned};
 use std::sync::Arc;
 
 /// Of two values of μ that are nearer than this, relative to the larger, it cannot be said which mode is which: what bends one of them
 /// against the other is no curvature of a smooth function, and is left out. [`Cut`]s are smooth there.
 const COINCIDENT: f64 = 1e-6;
 
-/// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
-const NEVER: f64 = 1e30;
+/// Eigenvalues looked at beyond the last asked for, as they may coincide with it.
+const BESIDE: usize = 4;
 
 /// The eigenvalues that a problem asks for.
 pub struct Modes {
@@ -39,14 +42,22 @@ pub struct Modes {
 struct Solved<'m> {
     modes: &'m Modes,
     z: Vec<f64>,
-    spectra: Vec<(Pencil, Spectrum)>,
+    solutions: Vec<(Pencil, Arc<Solution>)>,
+    /// What cuts of one cluster share, by the first of them asked about.
+    systems: Vec<(usize, Arc<System>)>,
 }
 
-/// A value and its derivatives along design and displacements.
-struct Smooth {
-    slope: Vec<f64>,
-    /// By (z, z') with z' ≤ z.
-    curvature: Vec<(usize, usize, f64)>,
+/// The matrices of a pencil, and their modes.
+struct Solution {
+    k: Matrix,
+    b: Matrix,
+    spectrum: Spectrum,
+}
+
+/// S, and the system over it that says what cuts through one basis see.
+struct System {
+    s: Matrix,
+    complement: Complement,
 }
 
 impl Modes {
@@ -72,22 +83,36 @@ impl Modes {
         self.wanted.len()
     }
 
+    /// How many eigenvalues of a pencil are looked at: up to the last asked for, and some that may coincide with it.
+    fn needed(&self, pencil: Pencil) -> usize {
+        let number = |one: &Eigenvalue| match *one {
+            Eigenvalue::Number(own, number) if own == pencil => number as usize,
+            _ => 0,
+        };
+        self.wanted.iter().map(number).max().unwrap_or(0) + BESIDE
+    }
+
     /// The variables each value depends on.
     fn columns(&self) -> Vec<Vec<u32>> {
         self.wanted.iter().map(|one| self.energies.columns(pencil(one, &self.cuts))).collect()
     }
 
     fn at<'m>(&'m self, z: &[f64]) -> Solved<'m> {
-        Solved { modes: self, z: z.to_vec(), spectra: Vec::new() }
+        Solved { modes: self, z: z.to_vec(), solutions: Vec::new(), systems: Vec::new() }
     }
 
-    /// All μ and φ of a pencil at design and displacements.
+    /// The largest μ of a pencil and their φ at design and displacements, at least `count` where there are as many above zero.
     ///
     /// # Errors
     /// The structure is a mechanism, or a matrix has no value.
-    pub fn spectrum(&self, z: &[f64], pencil: Pencil) -> Result<Spectrum, EvaluationError> {
+    pub fn spectrum(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Spectrum, EvaluationError> {
+        self.solution(z, pencil, count).map(|solution| solution.spectrum)
+    }
+
+    fn solution(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Solution, EvaluationError> {
         let (k, b) = (self.energies.matrix(z, pencil, 1.0, 0.0)?, self.energies.matrix(z, pencil, 0.0, 1.0)?);
-        spectrum(&k, &b).map_err(|_| failed("the structure is a mechanism: a motion meets no resistance"))
+        let spectrum = spectrum(&k, &b, count).map_err(unsolved)?;
+        Ok(Solution { k, b, spectrum })
     }
 
     /// Eigenvalues below a limit: the negative pivots of K − B/μ there (Sylvester's law of inertia).
@@ -96,7 +121,7 @@ impl Modes {
     /// The structure is a mechanism, or a matrix has no value.
     pub fn below(&self, z: &[f64], pencil: Pencil, limit: f64) -> Result<usize, EvaluationError> {
         let matrix = self.energies.matrix(z, pencil, 1.0, -1.0 / pencil.inverse(limit))?;
-        Ok(matrix.negative_eigenvalues())
+        matrix.negative_eigenvalues().map_err(unsolved)
     }
 
     /// wᵀSw of S = K − B/μ at a limit: its slope by design and displacements, and its value.
@@ -126,21 +151,34 @@ fn pencil(one: &Eigenvalue, cuts: &[Cut]) -> Pencil {
     }
 }
 
-fn failed(cause: impl ToString) -> EvaluationError {
-    EvaluationError::Invalid { term: "modes of the structure".into(), cause: cause.to_string() }
+fn unsolved(cause: FactorizationError) -> EvaluationError {
+    let cause = match cause {
+        FactorizationError::Singular => "the structure is a mechanism: a motion meets no resistance".into(),
+        other => other.to_string(),
+    };
+    EvaluationError::Invalid { term: "modes of the structure".into(), cause }
+}
+
+impl Solution {
+    /// B − μK on the complement of a mode and of those that coincide with it.
+    fn complement(&self, at: usize) -> Result<Complement, EvaluationError> {
+        let Spectrum { values, vectors } = &self.spectrum;
+        let mu = values[at];
+        let coincides = |other: f64| (mu - other).abs() <= COINCIDENT * mu.max(other);
+        let beside = values.iter().zip(vectors).filter(|(other, _)| coincides(**other));
+        let columns: Vec<Vec<f64>> = beside.map(|(_, vector)| self.k.times(vector)).collect();
+        Complement::new(&self.b.plus(-mu, &self.k), &columns, &self.k).map_err(unsolved)
+    }
 }
 
 impl Solved<'_> {
-    fn spectrum(&mut self, pencil: Pencil) -> Result<&Spectrum, EvaluationError> {
-        let known = self.spectra.iter().position(|(known, _)| *known == pencil);
-        let at = match known {
-            Some(at) => at,
-            None => {
-                self.spectra.push((pencil, self.modes.spectrum(&self.z, pencil)?));
-                self.spectra.len() - 1
-            }
-        };
-        Ok(&self.spectra[at].1)
+    fn solution(&mut self, pencil: Pencil) -> Result<Arc<Solution>, EvaluationError> {
+        if let Some((_, known)) = self.solutions.iter().find(|(known, _)| *known == pencil) {
+            return Ok(Arc::clone(known));
+        }
+        let solution = Arc::new(self.modes.solution(&self.z, pencil, self.modes.needed(pencil))?);
+        self.solutions.push((pencil, Arc::clone(&solution)));
+        Ok(solution)
     }
 
     /// The values asked for, as users know them; [`NEVER`] where so many modes do not buckle.
@@ -148,75 +186,76 @@ impl Solved<'_> {
         let modes = self.modes;
         let value = |one: &Eigenvalue| match *one {
             Eigenvalue::Number(pencil, number) => {
-                let mu = self.spectrum(pencil)?.values.get(number as usize - 1).copied().unwrap_or(0.0);
-                Ok(if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER })
+                let mu = self.solution(pencil)?.spectrum.values.get(number as usize - 1).copied().unwrap_or(0.0);
+                Ok(factor(pencil, mu))
             }
             Eigenvalue::Cut(cut) => {
+                let system = self.system(cut as usize)?;
                 let cut = &modes.cuts[cut as usize];
-                let (w, s, _) = self.seen(cut)?;
-                let remaining: f64 = w.iter().zip(s.times(&w)).map(|(a, b)| a * b).sum();
-                Ok(shown(cut, remaining))
+                let w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
+                Ok(shown(cut, dot(&w, &system.s.times(&w))))
             }
         };
         modes.wanted.iter().map(value).collect()
     }
 
-    /// What a cut sees: w, S, and the system they come from.
-    fn seen(&self, cut: &Cut) -> Result<(Vec<f64>, Symmetric, Bordered), EvaluationError> {
-        let energies = &self.modes.energies;
+    /// What a cut is seen through.
+    fn system(&mut self, at: usize) -> Result<Arc<System>, EvaluationError> {
+        let (energies, cuts) = (&self.modes.energies, &self.modes.cuts);
+        let cut = &cuts[at];
+        let alike = |other: &Cut| Arc::ptr_eq(&other.basis, &cut.basis) && (other.pencil, other.limit) == (cut.pencil, cut.limit);
+        if let Some((_, system)) = self.systems.iter().find(|(other, _)| alike(&cuts[*other])) {
+            return Ok(Arc::clone(system));
+        }
         let s = energies.matrix(&self.z, cut.pencil, 1.0, -1.0 / cut.pencil.inverse(cut.limit))?;
         let k = energies.matrix(&self.z, cut.pencil, 1.0, 0.0)?;
-        let bordered = Bordered::new(&s, &cut.basis, &k);
-        Ok((bordered.stationary(&cut.direction), s, bordered))
+        let complement = Complement::new(&s, &cut.basis, &k).map_err(unsolved)?;
+        let system = Arc::new(System { s, complement });
+        self.systems.push((at, Arc::clone(&system)));
+        Ok(system)
     }
 
     /// The first derivatives of a value, and the second where they are asked for.
     fn smooth(&mut self, one: Eigenvalue, curved: bool) -> Result<Smooth, EvaluationError> {
         match one {
             Eigenvalue::Number(pencil, number) => self.of_number(pencil, number as usize - 1, curved),
-            Eigenvalue::Cut(cut) => self.of_cut(&self.modes.cuts[cut as usize], curved),
+            Eigenvalue::Cut(cut) => self.of_cut(cut as usize, curved),
         }
     }
 
     fn of_number(&mut self, pencil: Pencil, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
         let energies = &self.modes.energies;
-        let z = self.z.clone();
-        let spectrum = self.spectrum(pencil)?;
-        let mu = spectrum.values.get(at).copied().unwrap_or(0.0);
-        if mu <= 0.0 {
+        let solution = self.solution(pencil)?;
+        let mu = solution.spectrum.values.get(at).copied().unwrap_or(0.0);
+        let z = &self.z;
+        if factor(pencil, mu) == NEVER {
             return Ok(Smooth { slope: vec![0.0; z.len()], curvature: Vec::new() });
         }
-        let phi = &spectrum.vectors[at];
+        let phi = &solution.spectrum.vectors[at];
         let [first, second] = pencil.slopes(mu);
         if !curved {
-            let slope = energies.slope(&z, phi, pencil, -mu, 1.0)?;
+            let slope = energies.slope(z, phi, pencil, -mu, 1.0)?;
             return Ok(Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature: Vec::new() });
         }
-        let stiffness = energies.slope(&z, phi, pencil, 1.0, 0.0)?;
-        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&z, phi, pencil, -mu, 1.0)?;
-        let mut shares = vec![Vec::new(); mixed.len()];
-        let apart: Vec<(f64, &Vec<f64>)> = spectrum.values.iter().copied().zip(&spectrum.vectors).collect();
-        let apart: Vec<_> = apart.into_iter().filter(|(other, _)| (mu - other).abs() > COINCIDENT * mu.max(*other)).collect();
-        for (share, mixed) in shares.iter_mut().zip(&mixed).filter(|(_, mixed)| !mixed.is_empty()) {
-            *share = apart.iter().map(|(_, vector)| dot(vector, mixed)).collect();
-        }
-        let weighted =
-            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(&apart).map(|((a, b), (other, _))| a * b / (mu - other)).sum() };
+        let stiffness = energies.slope(z, phi, pencil, 1.0, 0.0)?;
+        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(z, phi, pencil, -mu, 1.0)?;
+        let complement = solution.complement(at)?;
         let active: Vec<usize> =
-            (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !shares[z].is_empty()).collect();
+            (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !mixed[z].is_empty()).collect();
         for (at, &i) in active.iter().enumerate() {
             for &j in &active[..=at] {
-                let turned =
-                    if shares[i].is_empty() || shares[j].is_empty() { 0.0 } else { 2.0 * weighted(&shares[i], &shares[j]) };
-                curvature.push((i, j, turned - slope[i] * stiffness[j] - slope[j] * stiffness[i]));
+                curvature.push((i, j, -slope[i] * stiffness[j] - slope[j] * stiffness[i]));
             }
         }
+        turned(&complement, &mixed, &mut curvature).map_err(unsolved)?;
         Ok(chained(slope, curvature, &active, first, second))
     }
 
-    fn of_cut(&self, cut: &Cut, curved: bool) -> Result<Smooth, EvaluationError> {
-        let energies = &self.modes.energies;
-        let (w, s, bordered) = self.seen(cut)?;
+    fn of_cut(&mut self, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
+        let system = self.system(at)?;
+        let System { s, complement } = system.as_ref();
+        let (energies, cut) = (&self.modes.energies, &self.modes.cuts[at]);
+        let w = complement.stationary(&cut.direction).map_err(unsolved)?;
         let limit = cut.pencil.inverse(cut.limit);
         let remaining: f64 = dot(&w, &s.times(&w));
         // m = limit·(1 − b) is μ to first order.
@@ -228,25 +267,14 @@ impl Solved<'_> {
         }
         let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
         let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
-        let moving: Vec<usize> = active.iter().copied().filter(|&z| !mixed[z].is_empty()).collect();
-        let columns: Vec<Vec<f64>> = moving.iter().map(|&z| mixed[z].clone()).collect();
-        let projected = bordered.project(&columns);
-        for (a, &i) in moving.iter().enumerate() {
-            for (b, &j) in moving[..=a].iter().enumerate() {
-                curvature.push((i, j, -2.0 * dot(&columns[a], &projected[b])));
-            }
-        }
+        turned(complement, &mixed, &mut curvature).map_err(unsolved)?;
         Ok(chained(slope, curvature, &active, first, second))
     }
 }
 
-/// g(m(z)) from the derivatives of m and g.
-fn chained(slope: Vec<f64>, mut curvature: Vec<(usize, usize, f64)>, active: &[usize], first: f64, second: f64) -> Smooth {
-    curvature.iter_mut().for_each(|(.., value)| *value *= first);
-    for (at, &i) in active.iter().enumerate() {
-        curvature.extend(active[..=at].iter().map(|&j| (i, j, second * slope[i] * slope[j])));
-    }
-    Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature }
+/// The eigenvalue that users know, [`NEVER`] where there is none.
+fn factor(pencil: Pencil, mu: f64) -> f64 {
+    if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER }
 }
 
 /// What a cut shows where this is left of S.

@@ -1,9 +1,16 @@
 //! Eigenvalues of the structure that a problem asks for: buckling factors and natural frequencies.
 
+mod limits;
+
 use std::sync::Arc;
 
+pub use limits::{Limited, follow, limited, with_cuts, without};
+
 use super::formula::{Response, What};
-use super::{Constraint, Formula, Limit, Problem, Scope};
+use super::{Formula, Problem};
+
+/// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
+pub const NEVER: f64 = 1e30;
 
 /// The case of a response that has none.
 pub const NO_SET: u32 = u32::MAX;
@@ -136,84 +143,4 @@ impl Walk<'_> {
             other => other.children().for_each(|one| self.visit(one)),
         }
     }
-}
-
-/// A constraint that limits an eigenvalue from below by a number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limited {
-    /// Which constraint.
-    pub constraint: usize,
-    /// Whose eigenvalue.
-    pub pencil: Pencil,
-    /// Its number.
-    pub number: u32,
-    /// The limit.
-    pub limit: f64,
-}
-
-impl Limited {
-    /// Whether this limit holds wherever another does.
-    pub fn follows_from(&self, other: &Limited) -> bool {
-        self.pencil == other.pencil && self.number >= other.number && self.limit <= other.limit
-    }
-}
-
-/// The constraints that limit eigenvalues from below by numbers.
-pub fn limited(problem: &Problem) -> Vec<Limited> {
-    let constants = super::evaluate::Evaluation::constants(problem);
-    let of = |(at, constraint): (usize, &Constraint)| {
-        let (Formula::Response(response), Limit::AtLeast(limit), Scope::Once) =
-            (&constraint.left, &constraint.right, &constraint.scope)
-        else {
-            return None;
-        };
-        let Some(Eigenvalue::Number(pencil, number)) = response.eigenvalue() else { return None };
-        let limit = constants.value(limit, super::evaluate::Item::None).filter(|limit| *limit > 0.0)?;
-        Some(Limited { constraint: at, pencil, number, limit })
-    };
-    problem.constraints.iter().enumerate().filter_map(of).collect()
-}
-
-/// Modes above a limited one that are followed with it: at an optimum they tend to come down to it.
-const FOLLOWED: u32 = 2;
-
-/// Limits the next modes likewise wherever an eigenvalue is limited from below: redundant, as they are no lower, but solvers see them come.
-pub fn follow(problem: &mut Problem) {
-    let all = limited(problem);
-    for limit in &all {
-        for number in limit.number + 1..=limit.number + FOLLOWED {
-            let next = Limited { number, ..*limit };
-            if all.iter().any(|other| other.number == number && next.follows_from(other)) {
-                continue;
-            }
-            let own = problem.constraints[limit.constraint].clone();
-            let detail = format!("mode {number}").into();
-            let left = Formula::Response(Arc::new(limit.pencil.response(number)));
-            problem.constraints.push(Constraint { detail, left, ..own });
-        }
-    }
-}
-
-/// The problem with cuts in the place of limits: those at `replaced` and what follows from them go, each cut is a row named like the
-/// constraint it stands for.
-pub fn with_cuts(problem: &Problem, replaced: &[Limited], cuts: Vec<(usize, Box<str>, Cut)>) -> Problem {
-    let gone: Vec<usize> = limited(problem)
-        .iter()
-        .filter(|limit| replaced.iter().any(|other| limit.follows_from(other)))
-        .map(|limit| limit.constraint)
-        .collect();
-    let mut cut = without(problem, &gone);
-    for (number, (constraint, detail, _)) in cuts.iter().enumerate() {
-        let own = problem.constraints[*constraint].clone();
-        let response = Response { what: What::Cut(number as u32), ..cuts[number].2.pencil.response(1) };
-        cut.constraints.push(Constraint { detail: detail.clone(), left: Formula::Response(Arc::new(response)), ..own });
-    }
-    cut.cuts = Arc::new(cuts.into_iter().map(|(.., cut)| cut).collect());
-    cut
-}
-
-/// The problem without the constraints at these places.
-pub fn without(problem: &Problem, gone: &[usize]) -> Problem {
-    let kept = problem.constraints.iter().enumerate().filter(|(at, _)| !gone.contains(at));
-    Problem { constraints: kept.map(|(_, constraint)| constraint.clone()).collect(), ..problem.clone() }
 }

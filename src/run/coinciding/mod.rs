@@ -1,0 +1,124 @@
+//! Eigenvalues that coincide at their limit: as a rule they do at an optimum. A single one of them has no derivative there.
+//!
+//! The limit on coinciding modes says that a small matrix T over them is positive semidefinite ([`Cut`]). Every direction v among them
+//! gives the smooth row vᵀ·T·v ≥ 0. Designs that meet the limit meet all of these rows; so a minimum of the problem with some of them that meets
+//! the limit is one of the problem itself, and the rows' multipliers y_i make the positive semidefinite multiplier Σ y_i·v_i·v_iᵀ.
+//! Directions are added where T is found to be negative, as semi-infinite programs are solved by exchange (Hettich and Kortanek, *SIAM Review*
+//! 35, 1993); whether the limit is met is counted by the inertia of one factorisation.
+
+mod clusters;
+
+use super::Subject;
+use super::settled::Settled;
+use crate::certificate::Extent;
+use crate::crosscheck::{Outcome, Status};
+use crate::problem::Settings;
+use crate::problem::modes::{Cut, Limited, limited, with_cuts};
+use clusters::{Cluster, clusters, cuts_of, meets_limits, words};
+
+/// Rounds of exchange: each adds the directions in which T is negative at the last point.
+const ROUNDS: usize = 8;
+
+/// Iterations after which the interior point is at a minimum that has derivatives (it takes tens of them on every problem file), and near one
+/// that has none: at a kink of single modes it would go on without end.
+const ITERATIONS: u64 = 100;
+
+/// A problem with rows for modes that come together, and what it came to.
+pub(super) struct Coinciding {
+    /// The problem.
+    pub subject: Subject,
+    /// Its last outcome.
+    pub outcome: Outcome,
+    words: String,
+}
+
+/// A run from a point; `None` where no time is left for it.
+type Again<'a> = &'a dyn Fn(&Subject, &Settings, &[f64]) -> Option<Outcome>;
+
+/// Comes to the optimum before anything is logged, where eigenvalues are limited and come together there; `None` where nothing is certified so.
+pub(super) fn foresee(subject: &Subject, settings: &Settings, x: &[f64], again: Again<'_>) -> Option<Coinciding> {
+    if limited(subject.problem()).is_empty() {
+        return None;
+    }
+    let few = Settings { max_iterations: settings.max_iterations.min(ITERATIONS), ..settings.clone() };
+    let near = again(subject, &few, x)?;
+    exchange(subject, settings, &near, again).filter(|found| found.is_certified(subject))
+}
+
+/// Solves again from the point of an outcome with rows for all combinations of modes that coincide there; `None` where none do.
+pub(super) fn exchange(subject: &Subject, settings: &Settings, outcome: &Outcome, again: Again<'_>) -> Option<Coinciding> {
+    if !matches!(outcome.status, Status::Certified | Status::Uncertified | Status::LimitReached) || outcome.objective.is_none() {
+        return None;
+    }
+    let mut clusters = clusters(subject, &outcome.x).ok()?;
+    let told_apart = outcome.status == Status::Certified && clusters.iter().all(|cluster| !cluster.is_tight);
+    if clusters.is_empty() || told_apart {
+        return None;
+    }
+    let (mut cuts, mut replaced) = (Vec::new(), Vec::new());
+    let mut last: Option<Coinciding> = None;
+    for _ in 0..ROUNDS {
+        let refined = refined_by(subject, &clusters, &mut cuts, &mut replaced)?;
+        let x = last.as_ref().map_or(&outcome.x, |found| &found.outcome.x);
+        let Some(found) = again(&refined, settings, x).filter(|found| found.objective.is_some()) else { break };
+        let next = self::clusters(subject, &found.x).unwrap_or_default();
+        let coinciding = last.insert(Coinciding { subject: refined, outcome: found, words: words(&clusters) });
+        if next.is_empty() || coinciding.is_certified(subject) {
+            break;
+        }
+        clusters = next;
+    }
+    last
+}
+
+impl Coinciding {
+    /// Whether its point is a certified one of the subject's.
+    fn is_certified(&self, subject: &Subject) -> bool {
+        is_certified(subject, &self.outcome)
+    }
+
+    /// With the outcome of all backends from its point, where that is no worse; `None` where nothing is known of the point.
+    pub fn compared(self, subject: &Subject, all: Option<Outcome>) -> Option<Settled> {
+        let mut outcome = all.filter(|all| is_certified(subject, all)).unwrap_or(self.outcome);
+        if is_certified(subject, &outcome) {
+            outcome.scope = Extent::Local;
+            outcome.message = format!("{} {}", self.words, outcome.message);
+        } else if meets_limits(subject, &outcome.x).unwrap_or(false) {
+            // Nothing is proved where single rows have no derivative.
+            outcome.status = Status::Uncertified;
+        } else {
+            return None;
+        }
+        Some(Settled { subject: self.subject, outcome })
+    }
+}
+
+fn is_certified(subject: &Subject, outcome: &Outcome) -> bool {
+    outcome.status == Status::Certified && meets_limits(subject, &outcome.x).unwrap_or(false)
+}
+
+/// The problem with rows for these clusters beside those there are.
+fn refined_by(
+    subject: &Subject,
+    clusters: &[Cluster],
+    cuts: &mut Vec<(usize, Box<str>, Cut)>,
+    replaced: &mut Vec<Limited>,
+) -> Option<Subject> {
+    for cluster in clusters {
+        if !replaced.contains(&cluster.limit) {
+            replaced.push(cluster.limit);
+        }
+        cuts.extend(cuts_of(cluster));
+    }
+    subject.with_problem(with_cuts(subject.problem(), replaced, cuts.clone())).ok()
+}
+
+/// What `verify` judges a point by where eigenvalues coincide there; `None` where none do.
+pub(super) fn refined(subject: &Subject, x: &[f64]) -> Option<(Subject, String)> {
+    let clusters = clusters(subject, x).ok()?;
+    if clusters.iter().all(|cluster| !cluster.is_tight) || !meets_limits(subject, x).unwrap_or(false) {
+        return None;
+    }
+    let refined = refined_by(subject, &clusters, &mut Vec::new(), &mut Vec::new())?;
+    Some((refined, words(&clusters)))
+}
