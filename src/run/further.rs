@@ -25,8 +25,10 @@ impl Further<'_> {
         task: &Task<'_>,
         mut run: impl FnMut(&Task<'_>) -> Outcome,
     ) -> (Outcome, Option<Subject>) {
-        let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, settings, x, &self.of_rounds());
-        let foreseen = coinciding::foresee(subject, self.settings, task.start, &rounds);
+        let quiet = self.of_rounds();
+        let near = |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, settings, x, (self.choices, task.starts));
+        let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, settings, x, (&quiet, 1));
+        let foreseen = coinciding::foresee(subject, self.settings, task.start, &near, &rounds);
         let left = self.remaining.settings(task.settings);
         let task = &Task { settings: left.as_ref().unwrap_or(task.settings), ..*task };
         if let Some(foreseen) = foreseen {
@@ -52,7 +54,7 @@ impl Further<'_> {
 
     /// One start of every backend from a point of the user's variables; `None` where no time is left for it.
     pub fn nearby(&self, subject: &Subject, x: &[f64]) -> Option<Outcome> {
-        self.from(subject, self.settings, x, self.choices)
+        self.from(subject, self.settings, x, (self.choices, 1))
     }
 
     /// Rounds that nobody sees are the interior point's, where it is asked for.
@@ -62,10 +64,10 @@ impl Further<'_> {
         if is_asked { vec![interior_point] } else { self.choices.to_vec() }
     }
 
-    fn from(&self, subject: &Subject, settings: &Settings, x: &[f64], choices: &[Choice]) -> Option<Outcome> {
+    fn from(&self, subject: &Subject, settings: &Settings, x: &[f64], (choices, starts): (&[Choice], usize)) -> Option<Outcome> {
         let settings = self.remaining.settings(settings)?;
         let start = subject.completed(x.to_vec());
-        let task = Task { settings: &settings, ..subject.task(&start, self.interrupt) };
+        let task = Task { settings: &settings, starts, ..subject.task(&start, self.interrupt) };
         Some(present(subject, unobserved(&task, choices)))
     }
 }

@@ -23,6 +23,9 @@ const ROUNDS: usize = 8;
 /// that has none: at a kink of single modes it would go on without end.
 const ITERATIONS: u64 = 100;
 
+/// The same for backends that count no iterations, with as many evaluations to one as line searches take at the most.
+const EVALUATIONS: u64 = 10 * ITERATIONS;
+
 /// A problem with rows for modes that come together, and what it came to.
 pub(super) struct Coinciding {
     /// The problem.
@@ -35,13 +38,24 @@ pub(super) struct Coinciding {
 /// A run from a point; `None` where no time is left for it.
 type Again<'a> = &'a dyn Fn(&Subject, &Settings, &[f64]) -> Option<Outcome>;
 
-/// Comes to the optimum before anything is logged, where eigenvalues are limited and come together there; `None` where nothing is certified so.
-pub(super) fn foresee(subject: &Subject, settings: &Settings, x: &[f64], again: Again<'_>) -> Option<Coinciding> {
+/// Comes to the optimum before anything is logged, where eigenvalues are limited and come together there: near the best one by `from_all`, all
+/// backends from all starting points, and on by `again`. `None` where nothing is certified so.
+pub(super) fn foresee(
+    subject: &Subject,
+    settings: &Settings,
+    x: &[f64],
+    from_all: Again<'_>,
+    again: Again<'_>,
+) -> Option<Coinciding> {
     if limited(subject.problem()).is_empty() {
         return None;
     }
-    let few = Settings { max_iterations: settings.max_iterations.min(ITERATIONS), ..settings.clone() };
-    let near = again(subject, &few, x)?;
+    let few = Settings {
+        max_iterations: settings.max_iterations.min(ITERATIONS),
+        max_evaluations: settings.max_evaluations.min(EVALUATIONS),
+        ..settings.clone()
+    };
+    let near = from_all(subject, &few, x)?;
     exchange(subject, settings, &near, again).filter(|found| found.is_certified(subject))
 }
 
