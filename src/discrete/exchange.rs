@@ -28,7 +28,7 @@ pub fn best(rest: &Rest<'_>, start: &[f64]) -> Option<Design> {
 /// A design exchanged for better ones as long as there are any among its neighbours.
 pub fn improved(rest: &Rest<'_>, mut design: Design) -> Design {
     for _ in 0..ROUNDS {
-        if rest.limits.are_over() {
+        if rest.budget.check(0).is_err() {
             break;
         }
         match step(rest, &design) {
@@ -58,7 +58,7 @@ fn step(rest: &Rest<'_>, design: &Design) -> Option<Design> {
     };
     let pairs = (0..count).flat_map(|down| (0..count).filter(move |up| *up != down).map(move |up| (down, up)));
     let both = pairs.filter_map(|(down, up)| Some([(down, beside(down, false)?), (up, beside(up, true)?)]));
-    both.filter_map(|moves| if rest.limits.are_over() { None } else { tried(&moves) }).next()
+    both.filter_map(|moves| if rest.budget.check(0).is_err() { None } else { tried(&moves) }).next()
 }
 
 fn neighbours(rest: &Rest<'_>, design: &Design, list: usize) -> Vec<usize> {

@@ -13,4 +13,4 @@ pub mod search;
 
 pub use list::{List, Range};
 pub use rest::Rest;
-pub use search::{Bounded, Design, Found, Limits, Relaxation, Relaxed, search};
+pub use search::{Bounded, Design, Found, Relaxation, Relaxed, search};

@@ -1,6 +1,6 @@
 //! The design of given rows: the lists' variables at their numbers, all others at their best.
 
-use super::{Design, Limits, List};
+use super::{Design, List};
 use crate::backends::argmin::Argmin;
 use crate::backends::{Backend, Job, Solution};
 use crate::certificate::{Certifier, Tolerances};
@@ -21,7 +21,7 @@ pub struct Rest<'a> {
     /// The lists.
     pub lists: &'a [List],
     /// When to end.
-    pub limits: Limits<'a>,
+    pub budget: Budget<'a>,
 }
 
 impl Rest<'_> {
@@ -89,7 +89,7 @@ impl Rest<'_> {
             step_tolerance: settings.step_tolerance,
             constraint_tolerance: settings.constraint_tolerance,
             max_iterations: settings.max_iterations,
-            budget: Budget { deadline: self.limits.deadline, interrupt: self.limits.interrupt, ..Budget::default() },
+            budget: self.budget,
             stop_test: None,
             part_test: None,
             observer: &mut |_| {},

@@ -6,12 +6,11 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::sync::atomic::{self, AtomicBool};
-use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::{List, Range};
+use crate::model::Budget;
 
 /// Ranges that are looked at side by side. Fixed, so that the order in which things are found is.
 const BATCH: usize = 16;
@@ -65,23 +64,6 @@ pub trait Relaxation: Sync {
     fn design(&self, rows: &[usize], near: &[f64]) -> Option<Design>;
 }
 
-/// When to end.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Limits<'a> {
-    /// The moment to stop.
-    pub deadline: Option<Instant>,
-    /// Set by Ctrl-C.
-    pub interrupt: Option<&'a AtomicBool>,
-}
-
-impl Limits<'_> {
-    /// Whether to stop now.
-    pub fn are_over(&self) -> bool {
-        let interrupted = self.interrupt.is_some_and(|flag| flag.load(atomic::Ordering::Relaxed));
-        interrupted || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
-    }
-}
-
 /// What a search found.
 #[derive(Debug, Clone)]
 pub struct Found {
@@ -128,7 +110,7 @@ impl Ord for Open {
 }
 
 /// The best choice of rows: from a first design, where one is known, and a point to begin at.
-pub fn search(relaxation: &dyn Relaxation, lists: &[List], first: Option<Design>, start: &[f64], limits: &Limits<'_>) -> Found {
+pub fn search(relaxation: &dyn Relaxation, lists: &[List], first: Option<Design>, start: &[f64], budget: &Budget<'_>) -> Found {
     let mut search = Search { relaxation, lists, best: first, open: BinaryHeap::new(), relaxations: 0, unproved: f64::INFINITY };
     let unknown = Relaxed { bound: f64::NEG_INFINITY, x: start.to_vec(), slopes: vec![1.0; start.len()] };
     let whole: Vec<Range> = lists.iter().map(List::whole).collect();
@@ -136,7 +118,7 @@ pub fn search(relaxation: &dyn Relaxation, lists: &[List], first: Option<Design>
     let free = if let Bounded::Below(relaxed) = &root.bounded { relaxed.bound } else { f64::NEG_INFINITY };
     search.enter(vec![root]);
     while let Some(batch) = search.next_batch() {
-        if limits.are_over() {
+        if budget.check(0).is_err() {
             search.open.extend(batch);
             break;
         }

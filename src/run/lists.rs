@@ -12,9 +12,9 @@ use crate::certificate::{Extent, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
 use crate::discrete::convex::{Convex, FacetRow};
 use crate::discrete::hull::{Facet, facets};
-use crate::discrete::{Found, Limits, List, Rest, exchange, search};
+use crate::discrete::{Found, List, Rest, exchange, search};
 use crate::expression::operators::Binary;
-use crate::model::{Class, Formulation, Substitution, formulate};
+use crate::model::{Budget, Class, Formulation, Stop, Substitution, formulate};
 use crate::problem::{Constraint, Formula, Limit, Listed, Problem, Scope, Settings};
 use crate::report::number::{percent, significant};
 
@@ -54,8 +54,8 @@ pub(super) fn choose(
     let Some(left) = remaining.settings(settings).map(|settings| settings.max_seconds) else { return Some(no_time(free)) };
     // A year is as good as no limit.
     let deadline = Instant::now() + Duration::from_secs_f64((SHARE * left).min(3e7));
-    let limits = Limits { deadline: Some(deadline), interrupt };
-    let mut found = find(subject, settings, &lists, &free.x, limits);
+    let budget = Budget { deadline: Some(deadline), interrupt, ..Budget::default() };
+    let mut found = find(subject, settings, &lists, &free.x, budget);
     if found.bound == f64::NEG_INFINITY {
         found.bound = below_every_design(subject, remaining, interrupt).unwrap_or(f64::NEG_INFINITY);
     }
@@ -71,7 +71,7 @@ pub(super) fn choose(
     let own = chosen.shown().meta().variables();
     let x = &best.x[..own.min(best.x.len())];
     let mut outcome = again(&chosen, x).unwrap_or_else(|| as_found(&chosen, x, free));
-    judge(subject, &mut outcome, free, &found, &limits);
+    judge(subject, &mut outcome, free, &found, &budget);
     let named = listed.iter().zip(lists.iter().zip(&best.rows));
     let named =
         named.filter_map(|(listed, (list, &row))| Some((listed.name.clone(), listed.names.get(list.places[row])?.clone())));
@@ -83,12 +83,12 @@ fn list(listed: &Listed) -> List {
 }
 
 /// The best choice: proved where the class is one whose minima are global, else the best that exchanges find.
-fn find(subject: &Subject, settings: &Settings, lists: &[List], x: &[f64], limits: Limits<'_>) -> Found {
+fn find(subject: &Subject, settings: &Settings, lists: &[List], x: &[f64], budget: Budget<'_>) -> Found {
     let start = subject.completed(x.to_vec());
     // States beside the design are no variables of lists.
     let plain = |other: &&dyn Substitution| other.model().meta().states.is_none();
     let substitution = subject.substitution().filter(plain);
-    let rest = Rest { model: subject.model(), substitution, class: subject.class(), settings, lists, limits };
+    let rest = Rest { model: subject.model(), substitution, class: subject.class(), settings, lists, budget };
     let first = exchange::best(&rest, &start);
     let relaxed = if subject.class().is_global() { relaxed(subject) } else { None };
     match &relaxed {
@@ -96,7 +96,7 @@ fn find(subject: &Subject, settings: &Settings, lists: &[List], x: &[f64], limit
             let model = relaxed.model.judge();
             let facets = facet_rows(subject, relaxed, lists);
             let substitution = relaxed.substitution.as_deref().map(|other| other as &dyn Substitution);
-            search(&Convex { rest, relaxed: model, substitution, facets }, lists, first, &start, &limits)
+            search(&Convex { rest, relaxed: model, substitution, facets }, lists, first, &start, &budget)
         }
         None => {
             let nothing = f64::NEG_INFINITY;
@@ -164,14 +164,13 @@ fn add_facets(problem: &mut Problem, listed: &Listed, geometric: bool) {
             ),
             false => (Formula::Binary(Binary::Add, times(Binary::Multiply, u, a), times(Binary::Multiply, v, b)), c),
         };
-        let (name, right) = (facet_name(listed, at), Limit::AtMost(Formula::Constant(limit)));
-        let (place, text, detail) = (String::new(), String::new(), Box::default());
-        problem.constraints.push(Constraint { name, detail, place, text, scope: Scope::Once, left, right });
+        let right = Limit::AtMost(Formula::Constant(limit));
+        problem.constraints.push(Constraint { right, ..Constraint::unlimited(facet_name(listed, at), Scope::Once, left) });
     }
 }
 
 /// What an outcome with chosen sizes says of all choices.
-fn judge(subject: &Subject, outcome: &mut Outcome, free: &Outcome, found: &Found, limits: &Limits<'_>) {
+fn judge(subject: &Subject, outcome: &mut Outcome, free: &Outcome, found: &Found, budget: &Budget<'_>) {
     let Some(objective) = outcome.objective.filter(|_| outcome.status == Status::Certified) else {
         outcome.message = format!("The problem with the sizes that were chosen: {}", outcome.message);
         return;
@@ -187,10 +186,10 @@ fn judge(subject: &Subject, outcome: &mut Outcome, free: &Outcome, found: &Found
             found.relaxations
         )
     } else if found.bound.is_finite() {
-        outcome.status = ended(limits);
+        outcome.status = ended(budget);
         format!("The best choice of sizes that was found, within {} of the best of the list.", percent(gap))
     } else {
-        outcome.status = ended(limits);
+        outcome.status = ended(budget);
         "The best choice of sizes that rounding and exchanges found; nothing is proved of other choices.".to_owned()
     };
     if !proved {
@@ -215,12 +214,11 @@ fn price(subject: &Subject, (objective, free): (f64, &Outcome), found: &Found) -
     }
 }
 
-fn ended(limits: &Limits<'_>) -> Status {
-    let interrupted = limits.interrupt.is_some_and(|flag| flag.load(std::sync::atomic::Ordering::Relaxed));
-    match interrupted {
-        true => Status::Interrupted,
-        false if limits.are_over() => Status::LimitReached,
-        false => Status::Uncertified,
+fn ended(budget: &Budget<'_>) -> Status {
+    match budget.check(0) {
+        Err(Stop::Interrupted) => Status::Interrupted,
+        Err(_) => Status::LimitReached,
+        Ok(()) => Status::Uncertified,
     }
 }
 

@@ -61,7 +61,7 @@ fn the_best_of_random_lists_is_that_of_all_designs_one_by_one() {
     for seed in 0..200 {
         let covering = Covering::random(seed);
         let start = vec![1.0; covering.lists.len()];
-        let found = search(&covering, &covering.lists, None, &start, &Limits::default());
+        let found = search(&covering, &covering.lists, None, &start, &Budget::default());
         let best = covering.exhaustive();
         assert!(found.proved, "seed {seed}");
         assert_eq!(found.best.as_ref().map(|best| best.objective), best, "seed {seed}");
@@ -73,7 +73,7 @@ fn the_best_of_random_lists_is_that_of_all_designs_one_by_one() {
 #[test]
 fn a_search_that_ends_early_keeps_what_it_has() {
     let covering = (0..).map(Covering::random).find(|covering| covering.exhaustive().is_some()).unwrap();
-    let over = Limits { deadline: Some(Instant::now()), interrupt: None };
+    let over = Budget { deadline: Some(std::time::Instant::now()), ..Budget::default() };
     let found = search(&covering, &covering.lists, None, &vec![1.0; covering.lists.len()], &over);
     assert!(found.relaxations <= 1);
     let best = covering.exhaustive().unwrap();
