@@ -3,7 +3,7 @@
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, Par, Side};
 
-use super::{Matrix, NEGLIGIBLE, Spectrum};
+use super::{Matrix, NEGLIGIBLE, Spectrum, not_converging};
 use crate::linear_algebra::FactorizationError;
 
 /// The eigenvalues of L⁻¹·B·L⁻ᵀ with K = L·Lᵀ (Golub and Van Loan, *Matrix Computations*, §8.7).
@@ -14,8 +14,7 @@ pub(super) fn spectrum(k: &Matrix, b: &Matrix) -> Result<Spectrum, Factorization
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     let mut reduced = reduced.transpose().to_owned();
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
-    let failed = |_| FactorizationError::Library("its eigenvalues do not converge".into());
-    let found = reduced.self_adjoint_eigen(Side::Lower).map_err(failed)?;
+    let found = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| not_converging())?;
     let mut vectors = found.U().to_owned();
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     let ascending = found.S().column_vector();

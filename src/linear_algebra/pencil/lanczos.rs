@@ -8,7 +8,7 @@
 
 use faer::{Mat, Side};
 
-use super::{Matrix, NEGLIGIBLE, Spectrum, dot};
+use super::{Matrix, NEGLIGIBLE, Spectrum, dot, not_converging};
 use crate::linear_algebra::{FactorizationError, SymmetricSolver};
 
 /// Vectors in a block: eigenvalues that occur as often come up together, as in columns of square sections.
@@ -107,6 +107,8 @@ struct Iteration<'a> {
     stiff: Vec<Vec<f64>>,
     /// The lower triangle of VᵀBV by rows.
     projected: Vec<Vec<f64>>,
+    /// B·v of vectors whose K⁻¹Bv is yet to be looked at.
+    loaded: Vec<Vec<f64>>,
     /// Of K⁻¹Bv, for the vectors v at the basis's end, what lies outside the basis, with its length.
     outside: Vec<(Vec<f64>, f64)>,
     begun: usize,
@@ -136,57 +138,57 @@ impl<'a> Iteration<'a> {
         if solver.factor(&k.scaled(&scales))?.positive < k.order() {
             return Err(FactorizationError::Singular);
         }
-        let (basis, stiff, projected, outside) = Default::default();
-        Ok(Iteration { b, k, scales, solver, basis, stiff, projected, outside, begun: 0, largest_image: 0.0 })
+        let (basis, stiff, projected, loaded, outside) = Default::default();
+        Ok(Iteration { b, k, scales, solver, basis, stiff, projected, loaded, outside, begun: 0, largest_image: 0.0 })
     }
 
     /// Adds directions without a pattern, and what they lead to.
     fn begin(&mut self) -> Result<(), FactorizationError> {
-        let pending = std::mem::take(&mut self.outside);
         let before = self.basis.len();
-        self.append(pending.into_iter().map(|(vector, _)| vector).collect(), RESIDUAL * self.largest_image);
+        self.take_in();
         for _ in 0..BLOCK {
             self.begun += 1;
             // Multiples of an irrational number, modulo 1, are spread evenly (Weyl 1916).
             let step = (2.0 + self.begun as f64).sqrt() / 8.0 + (5.0f64.sqrt() - 1.0) / 2.0;
             let share = |(at, scale): (usize, &f64)| (((at + 1) as f64 * step).fract() - 0.5) * scale;
             let mut direction: Vec<f64> = self.scales.iter().enumerate().map(share).collect();
-            let length = dot(&direction, &self.k.times(&direction)).max(0.0).sqrt();
+            let length = self.length(&direction);
             direction.iter_mut().for_each(|value| *value /= length);
-            self.append(vec![direction], DEPENDENT);
+            self.append(direction, DEPENDENT);
         }
         if self.basis.len() == before {
             return Err(not_converging());
         }
-        self.image(before)
+        self.image()
     }
 
     /// Adds what lies outside, and what that leads to.
     fn follow(&mut self) -> Result<(), FactorizationError> {
-        let before = self.basis.len();
-        let outside = std::mem::take(&mut self.outside);
-        self.append(outside.into_iter().map(|(vector, _)| vector).collect(), RESIDUAL * self.largest_image);
-        self.image(before)
+        self.take_in();
+        self.image()
     }
 
-    /// Makes directions part of the basis, but for those of which no more than `least` is left beside it.
-    fn append(&mut self, directions: Vec<Vec<f64>>, least: f64) {
-        for mut v in directions {
-            let left = self.leave(&mut v);
-            if left <= least || left.is_nan() {
-                continue;
-            }
-            // Once more after it was made longer: what is left of a short vector is not orthogonal to the last digit.
-            v.iter_mut().for_each(|value| *value /= left);
-            let left = self.leave(&mut v);
-            v.iter_mut().for_each(|value| *value /= left);
-            let (stiff, loaded) = (self.k.times(&v), self.b.times(&v));
-            let mut row: Vec<f64> = self.basis.iter().map(|other| dot(other, &loaded)).collect();
-            row.push(dot(&v, &loaded));
-            self.projected.push(row);
-            self.basis.push(v);
-            self.stiff.push(stiff);
+    /// Makes what lies outside part of the basis.
+    fn take_in(&mut self) {
+        let least = RESIDUAL * self.largest_image;
+        std::mem::take(&mut self.outside).into_iter().for_each(|(vector, _)| self.append(vector, least));
+    }
+
+    /// Makes a direction part of the basis, unless no more than `least` of it is left beside it.
+    fn append(&mut self, mut v: Vec<f64>, least: f64) {
+        let left = self.leave(&mut v);
+        if left <= least || left.is_nan() {
+            return;
         }
+        // Once more after it was made longer: what is left of a short vector is not orthogonal to the last digit.
+        v.iter_mut().for_each(|value| *value /= left);
+        let left = self.leave(&mut v);
+        v.iter_mut().for_each(|value| *value /= left);
+        let (stiff, loaded) = (self.k.times(&v), self.b.times(&v));
+        self.basis.push(v);
+        self.stiff.push(stiff);
+        self.projected.push(self.basis.iter().map(|other| dot(other, &loaded)).collect());
+        self.loaded.push(loaded);
     }
 
     /// Takes the basis out of v, twice (Parlett §6.9), and tells the length of what is left.
@@ -197,16 +199,20 @@ impl<'a> Iteration<'a> {
                 v.iter_mut().zip(other).for_each(|(value, other)| *value -= share * other);
             }
         }
+        self.length(v)
+    }
+
+    /// In the norm of K.
+    fn length(&self, v: &[f64]) -> f64 {
         dot(v, &self.k.times(v)).max(0.0).sqrt()
     }
 
-    /// K⁻¹Bv for the basis from here on, outside the basis.
-    fn image(&mut self, from: usize) -> Result<(), FactorizationError> {
+    /// K⁻¹Bv of the vectors appended, outside the basis.
+    fn image(&mut self) -> Result<(), FactorizationError> {
         if self.basis.len() > MOST {
             return Err(not_converging());
         }
-        for at in from..self.basis.len() {
-            let loaded = self.b.times(&self.basis[at]);
+        for loaded in std::mem::take(&mut self.loaded) {
             let right: Vec<f64> = loaded.iter().zip(&self.scales).map(|(value, scale)| value * scale).collect();
             let mut image = vec![0.0; right.len()];
             self.solver.solve(&right, &mut image)?;
@@ -247,8 +253,4 @@ impl<'a> Iteration<'a> {
         };
         Spectrum { values: ritz.values[..found].to_vec(), vectors: (0..found).map(vector).collect() }
     }
-}
-
-fn not_converging() -> FactorizationError {
-    FactorizationError::Library("its eigenvalues do not converge".into())
 }

@@ -44,6 +44,10 @@ pub fn spectrum(k: &Matrix, b: &Matrix, count: usize) -> Result<Spectrum, Factor
     if k.order() <= SMALL { full::spectrum(k, b) } else { lanczos::spectrum(k, b, count) }
 }
 
+fn not_converging() -> FactorizationError {
+    FactorizationError::Library("its eigenvalues do not converge".into())
+}
+
 /// aᵀb, in eight sums beside one another: one sum waits for itself at every term.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];

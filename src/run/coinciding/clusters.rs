@@ -68,8 +68,7 @@ fn is_near(shown: f64, limit: &Limited) -> bool {
 
 /// The eigenvalue of a mode; infinite where there is none.
 fn shown(spectrum: &Spectrum, limit: &Limited, mode: u32) -> f64 {
-    let mu = spectrum.values.get(mode as usize - 1).copied().filter(|mu| *mu > 0.0);
-    mu.map_or(f64::INFINITY, |mu| limit.pencil.shown(mu))
+    spectrum.values.get(mode as usize - 1).map_or(f64::INFINITY, |&mu| limit.pencil.shown(mu))
 }
 
 /// Rows for the modes of a cluster, and for the sum and difference of every two.

@@ -235,7 +235,7 @@ impl Solved<'_> {
         let [first, second] = pencil.slopes(mu);
         if !curved {
             let slope = energies.slope(z, phi, pencil, -mu, 1.0)?;
-            return Ok(Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature: Vec::new() });
+            return Ok(chained(slope, Vec::new(), &[], first, second));
         }
         let stiffness = energies.slope(z, phi, pencil, 1.0, 0.0)?;
         let Derivatives { slope, mut curvature, mixed } = energies.derivatives(z, phi, pencil, -mu, 1.0)?;
@@ -263,7 +263,7 @@ impl Solved<'_> {
         let (first, second) = (-limit * first, limit * limit * second);
         if !curved {
             let slope = energies.slope(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
-            return Ok(Smooth { slope: slope.iter().map(|value| first * value).collect(), curvature: Vec::new() });
+            return Ok(chained(slope, Vec::new(), &[], first, second));
         }
         let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
         let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
