@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::Assembly;
-use super::dimensions::Holder;
 use super::items::{Given, GivenValue};
 use super::listing::{Listing, Values};
+use crate::expression::ast::Collection;
 use crate::input::declaration::{self, CatalogueEntry, ListEntry, Range, SectionEntry};
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
@@ -121,7 +121,7 @@ impl Assembly<'_> {
             None => sections::kind("general")?,
         };
         let mut table = tables.open(&entry.file, &mut self.findings)?;
-        self.columns_of(&table, Some(Holder::Sections));
+        self.columns_of(&table, Some(Collection::Sections));
         let name = table.headers.iter().position(|header| header == "name");
         let known = |header: &str| kind.forms().iter().any(|form| form.dimensions.contains(&header));
         let columns: Vec<usize> = (0..table.headers.len()).filter(|&at| known(&table.headers[at])).collect();

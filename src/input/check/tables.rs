@@ -4,8 +4,8 @@ mod columns;
 
 use super::Assembly;
 use super::data::{infinite, put};
-use super::dimensions::Holder;
 use super::items::{Given, GivenValue};
+use crate::expression::ast::Collection;
 use crate::input::declaration::{Declaration, Name, Range};
 use crate::input::fields::Scalar;
 use crate::input::source::Written;
@@ -31,7 +31,7 @@ impl Assembly<'_> {
         // Until the columns are known.
         (self.without.sections, self.without.table) = (true, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
-        self.columns_of(&table, Some(Holder::Sections));
+        self.columns_of(&table, Some(Collection::Sections));
         let Some(columns) = SectionColumns::of(&table, &mut self.section_data, &mut self.findings) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.section_row(&row, &columns);
@@ -104,7 +104,7 @@ impl Assembly<'_> {
     fn rib_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
         let before = std::mem::replace(&mut self.without.table, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
-        self.columns_of(&table, Some(Holder::Ribs));
+        self.columns_of(&table, Some(Collection::Ribs));
         let Some(columns) = RibColumns::of(&table, self) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.rib_row(&row, &columns);

@@ -10,6 +10,7 @@ mod said;
 mod walk;
 
 use super::Assembly;
+use crate::expression::ast::Collection;
 use crate::input::declaration::Declaration;
 use crate::input::source::Place;
 use crate::input::table::Table;
@@ -40,17 +41,9 @@ pub struct Measured {
     pub value: Option<f64>,
 }
 
-/// What the items of a table are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Holder {
-    Sections,
-    Ribs,
-    Nodes,
-}
-
 /// A column of a table whose header has a unit.
 pub(super) struct MeasuredColumn {
-    holder: Holder,
+    holder: Collection,
     name: String,
     dimension: Dimension,
     place: Place,
@@ -58,7 +51,7 @@ pub(super) struct MeasuredColumn {
 
 impl Assembly<'_> {
     /// Keeps what the headers of a table say of its units.
-    pub(super) fn columns_of(&mut self, table: &Table, holder: Option<Holder>) {
+    pub(super) fn columns_of(&mut self, table: &Table, holder: Option<Collection>) {
         for (at, unit) in table.units.iter().enumerate() {
             let Some((unit, _)) = unit else { continue };
             self.quantities = true;

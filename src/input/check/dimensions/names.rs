@@ -1,6 +1,5 @@
 //! Dimensions of names: properties of sections and ribs are known, those of the user's own names are looked for.
 
-use super::Holder;
 use super::walk::{Scope, Walk};
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::input::source::Written;
@@ -27,30 +26,20 @@ fn property(name: &str, kind: Option<&str>) -> Option<i64> {
     }
 }
 
-impl From<Collection> for Holder {
-    fn from(collection: Collection) -> Holder {
-        match collection {
-            Collection::Ribs => Holder::Ribs,
-            Collection::Sections => Holder::Sections,
-            Collection::Nodes => Holder::Nodes,
-        }
-    }
-}
-
 /// The word for it in keys.
-fn word(holder: Holder) -> &'static str {
+fn word(holder: Collection) -> &'static str {
     match holder {
-        Holder::Sections => "sections",
-        Holder::Ribs => "ribs",
-        Holder::Nodes => "nodes",
+        Collection::Sections => "sections",
+        Collection::Ribs => "ribs",
+        Collection::Nodes => "nodes",
     }
 }
 
 impl Walk<'_, '_> {
     /// A datum; all elements of an array of data have one dimension.
-    pub fn datum(&mut self, holder: Holder, name: &str) -> Form {
+    pub fn datum(&mut self, holder: Collection, name: &str) -> Form {
         let base = name.split('[').next().unwrap_or(name);
-        if holder == Holder::Nodes && ["x", "y", "z"].contains(&base) {
+        if holder == Collection::Nodes && ["x", "y", "z"].contains(&base) {
             return Dimension::LENGTH.into();
         }
         self.unknown(format!("data of {}: {base}", word(holder)))
@@ -65,7 +54,7 @@ impl Walk<'_, '_> {
             None => self.kinds().iter().any(offers),
         };
         if !offered {
-            return self.datum(Holder::Sections, name);
+            return self.datum(Collection::Sections, name);
         }
         let only = self.kinds().into_iter().find(|_| kind.is_none()).map(|kind| kind.name());
         match property(base, kind.or(only)) {
@@ -83,18 +72,13 @@ impl Walk<'_, '_> {
     }
 
     /// Whether items of this collection have a number of this name of their own.
-    fn is_own(&self, holder: Holder, name: &str) -> bool {
-        let collection = match holder {
-            Holder::Sections => Collection::Sections,
-            Holder::Ribs => Collection::Ribs,
-            Holder::Nodes => Collection::Nodes,
-        };
-        let columns = self.assembly.problem.columns(collection);
+    fn is_own(&self, holder: Collection, name: &str) -> bool {
+        let columns = self.assembly.problem.columns(holder);
         let is_datum = columns.iter().any(|column| column.name.split('[').next() == Some(name));
         let is_property = match holder {
-            Holder::Sections => self.kinds().iter().any(|kind| kind.properties().contains(&name)),
-            Holder::Ribs => ["length", "volume"].contains(&name),
-            Holder::Nodes => false,
+            Collection::Sections => self.kinds().iter().any(|kind| kind.properties().contains(&name)),
+            Collection::Ribs => ["length", "volume"].contains(&name),
+            Collection::Nodes => false,
         };
         is_datum || is_property
     }
@@ -105,13 +89,13 @@ impl Walk<'_, '_> {
         match (scope.holder, &parts[..]) {
             (_, [name]) if self.indices.iter().any(|index| index == name) => Dimension::NONE.into(),
             (Some(holder), [name]) if scope.itself != Some(name) && self.is_own(holder, name) => match (holder, *name) {
-                (Holder::Sections, name) => self.of_section(None, name),
-                (Holder::Ribs, "length") => Dimension::LENGTH.into(),
-                (Holder::Ribs, "volume") => Dimension::whole([3, 0, 0, 0]).into(),
+                (Collection::Sections, name) => self.of_section(None, name),
+                (Collection::Ribs, "length") => Dimension::LENGTH.into(),
+                (Collection::Ribs, "volume") => Dimension::whole([3, 0, 0, 0]).into(),
                 (holder, name) => self.datum(holder, name),
             },
-            (Some(Holder::Ribs), ["from" | "to" | "at", name]) => self.of_section(None, name),
-            (Some(Holder::Ribs), ["material", name]) => self.of_material(name),
+            (Some(Collection::Ribs), ["from" | "to" | "at", name]) => self.of_section(None, name),
+            (Some(Collection::Ribs), ["material", name]) => self.of_material(name),
             (_, ["outer", ..]) => self.inference.unknown(),
             (_, [name]) => self.global(name),
             (_, [item, name]) => self.of_item(item, name),
@@ -146,7 +130,7 @@ impl Walk<'_, '_> {
             }
             Some(Entity::Rib(_)) if name == "length" => Dimension::LENGTH.into(),
             Some(Entity::Rib(_)) if name == "volume" => Dimension::whole([3, 0, 0, 0]).into(),
-            Some(Entity::Rib(_)) => self.datum(Holder::Ribs, name),
+            Some(Entity::Rib(_)) => self.datum(Collection::Ribs, name),
             _ => self.inference.unknown(),
         }
     }

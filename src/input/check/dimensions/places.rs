@@ -1,8 +1,8 @@
 //! Every place of the file where a number stands, with the dimension it asks for.
 
-use super::Holder;
 use super::walk::{Scope, Walk};
 use crate::expression::Span;
+use crate::expression::ast::Collection;
 use crate::expression::parse::{parse, parse_condition, parse_range, parse_requirement};
 use crate::input::declaration::structure::{LoadEntry, StructureEntries, Vector};
 use crate::input::declaration::{
@@ -41,8 +41,8 @@ impl Walk<'_, '_> {
     fn columns(&mut self) {
         for column in &self.assembly.columns {
             let own = match (column.holder, column.name.as_str()) {
-                (Holder::Sections, name) => self.of_section(None, name),
-                (Holder::Ribs, "length") => Dimension::LENGTH.into(),
+                (Collection::Sections, name) => self.of_section(None, name),
+                (Collection::Ribs, "length") => Dimension::LENGTH.into(),
                 (holder, name) => self.datum(holder, name),
             };
             if self.inference.equal(&own, &column.dimension.into()).is_err() {
@@ -55,9 +55,9 @@ impl Walk<'_, '_> {
 
     /// Data that are given with units.
     fn measured_data(&mut self, declared: &Declaration) {
-        let sections = declared.sections.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Holder::Sections, name));
-        let ribs = declared.ribs.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Holder::Ribs, name));
-        let nodes = declared.structure.nodes.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Holder::Nodes, name));
+        let sections = declared.sections.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Collection::Sections, name));
+        let ribs = declared.ribs.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Collection::Ribs, name));
+        let nodes = declared.structure.nodes.iter().flat_map(|entry| &entry.data).map(|(name, _)| (Collection::Nodes, name));
         for (holder, name) in sections.chain(ribs).chain(nodes) {
             let Some(&dimension) = declared.measured.get(&name.place) else { continue };
             let datum = self.datum(holder, &name.text);
@@ -147,7 +147,7 @@ impl Walk<'_, '_> {
             let Some(text) = assembly.texts.get(link.text as usize) else { continue };
             let written = Written { place: link.place, inside: link.inside, text: text.text.clone() };
             let needed = self.of_section(Some(form.kind), name);
-            let scope = Scope { holder: Some(Holder::Sections), itself: Some(name) };
+            let scope = Scope { holder: Some(Collection::Sections), itself: Some(name) };
             self.written(&written, scope, &needed, &format!("`{name}`"));
         }
     }
@@ -213,7 +213,7 @@ impl Walk<'_, '_> {
     }
 
     fn constraint(&mut self, entry: &ConstraintEntry) {
-        let scope = Scope { holder: entry.repeated.map(Holder::from), itself: None };
+        let scope = Scope { holder: entry.repeated, itself: None };
         if let Some(written) = &entry.filter
             && let Ok(condition) = parse_condition(&written.text)
         {

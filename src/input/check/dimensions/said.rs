@@ -1,7 +1,7 @@
 //! What was inferred, for `check --units`.
 
+use super::Measured;
 use super::walk::Walk;
-use super::{Holder, Measured};
 use crate::expression::ast::Collection;
 use crate::input::declaration::Declaration;
 use crate::problem::Formula;
@@ -24,10 +24,8 @@ impl Walk<'_, '_> {
         for (name, _) in &declared.definitions {
             list.push(self.one(name.text.clone(), format!("name: {}", name.text), None));
         }
-        let collections =
-            [(Holder::Sections, Collection::Sections), (Holder::Ribs, Collection::Ribs), (Holder::Nodes, Collection::Nodes)];
-        for (holder, collection) in collections {
-            let columns = self.assembly.problem.columns(collection);
+        for holder in [Collection::Sections, Collection::Ribs, Collection::Nodes] {
+            let columns = self.assembly.problem.columns(holder);
             let mut names: Vec<&str> = columns.iter().map(|column| column.name.split('[').next().unwrap_or_default()).collect();
             names.dedup();
             for name in names {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::Assembly;
 use crate::expression::Span;
-use crate::expression::ast::{Ast, AstKind, Condition, Requirement};
+use crate::expression::ast::{Ast, AstKind, Collection, Condition, Requirement};
 use crate::expression::operators::{Binary, Unary};
 use crate::input::source::{Place, Written};
 use crate::problem::Formula;
@@ -13,12 +13,10 @@ use crate::problem::resolve::Value;
 use crate::units::inference::{Form, Inference};
 use crate::units::{Dimension, Ratio};
 
-use super::Holder;
-
 /// Where names are looked up: the items whose own names hold, and the dimension whose expression this is.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Scope<'s> {
-    pub holder: Option<Holder>,
+    pub holder: Option<Collection>,
     pub itself: Option<&'s str>,
 }
 
@@ -188,7 +186,7 @@ impl<'a, 's> Walk<'a, 's> {
                 form
             }
             AstKind::Over { collection, filter, body, .. } => {
-                let inner = Scope { holder: Some((*collection).into()), itself: None };
+                let inner = Scope { holder: Some(*collection), itself: None };
                 if let Some(filter) = filter {
                     self.condition(filter, written, inner);
                 }

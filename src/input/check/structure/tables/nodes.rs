@@ -2,9 +2,9 @@
 
 use super::super::super::Assembly;
 use super::super::super::data::put;
-use super::super::super::dimensions::Holder;
 use super::super::nodes::UNKNOWN;
 use super::{filled, require, scalar};
+use crate::expression::ast::Collection;
 use crate::input::declaration::Name;
 use crate::input::source::Written;
 use crate::input::table::{Row, Table, Tables};
@@ -25,7 +25,7 @@ impl Assembly<'_> {
         let before = std::mem::replace(&mut self.without.table, true);
         self.building.incomplete = true;
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
-        self.columns_of(&table, Some(Holder::Nodes));
+        self.columns_of(&table, Some(Collection::Nodes));
         let Some(columns) = self.node_columns(&table) else { return };
         while let Some(row) = table.next(&mut self.findings) {
             self.node_row(&row, &columns);
