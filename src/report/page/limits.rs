@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::Value;
 
 use super::Left;
-use super::tables::{MOST_ROWS, shown, table};
+use super::tables::{MOST_ROWS, left_out, shown, table};
 
 /// Limits that are shown, the costliest first.
 const MOST_LIMITS: usize = 50;
@@ -68,6 +68,6 @@ pub(super) fn utilisation(left: &Left) -> Markup {
                 @for column in &columns[2..] { td { (csv.cell(row, column)) } }
             } } }
         } }
-        @if csv.rows.len() > MOST_ROWS { p { (csv.rows.len() - MOST_ROWS) " more rows in " code { (file) } "." } }
+        (left_out(csv.rows.len(), file))
     }
 }

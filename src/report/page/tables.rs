@@ -29,6 +29,11 @@ impl Csv {
         self.header.iter().position(|header| header == name)
     }
 
+    /// Some columns of every row.
+    pub fn select(&self, columns: &[&str]) -> Vec<Vec<String>> {
+        self.rows.iter().map(|row| columns.iter().map(|column| self.cell(row, column).to_owned()).collect()).collect()
+    }
+
     /// A cell of a row.
     pub fn cell<'r>(&self, row: &'r [String], name: &str) -> &'r str {
         self.column(name).and_then(|at| row.get(at)).map_or("", String::as_str)
@@ -55,8 +60,13 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>], file: &str) -> Markup
             thead { tr { @for title in header { th { (title) } } } }
             tbody { @for row in rows.iter().take(MOST_ROWS) { tr { @for text in row { (cell(text)) } } } }
         } }
-        @if rows.len() > MOST_ROWS { p { (rows.len() - MOST_ROWS) " more rows in " code { (file) } "." } }
+        (left_out(rows.len(), file))
     }
+}
+
+/// What a page says of rows that it does not show.
+pub(super) fn left_out(rows: usize, file: &str) -> Markup {
+    html! { @if rows > MOST_ROWS { p { (rows - MOST_ROWS) " more rows in " code { (file) } "." } } }
 }
 
 /// A section, its kind, and its numbers by name.
@@ -92,18 +102,13 @@ pub(super) fn sizes(left: &Left) -> Markup {
 pub(super) fn ribs(left: &Left) -> Markup {
     let Some(volumes) = left.table("volumes.csv").filter(|table| !table.rows.is_empty()) else { return html! {} };
     let columns = ["rib", "from", "to", "length", "volume", "mass"];
-    let rows: Vec<Vec<String>> =
-        volumes.rows.iter().map(|row| columns.iter().map(|column| volumes.cell(row, column).to_owned()).collect()).collect();
-    html! { h2 { "Ribs" } (table(&columns, &rows, "volumes.csv")) }
+    html! { h2 { "Ribs" } (table(&columns, &volumes.select(&columns), "volumes.csv")) }
 }
 
 /// All variables with their bounds.
 pub(super) fn variables(left: &Left) -> Markup {
     let rows: Vec<Vec<String>> = match left.table("variables.csv") {
-        Some(table) => {
-            let columns = ["name", "value", "lower", "upper", "active"];
-            table.rows.iter().map(|row| columns.iter().map(|column| table.cell(row, column).to_owned()).collect()).collect()
-        }
+        Some(table) => table.select(&["name", "value", "lower", "upper", "active"]),
         None => {
             let values = left.result.get("variables").and_then(Value::as_object);
             values.into_iter().flatten().map(|(name, value)| vec![name.clone(), number(Some(value))]).collect()
