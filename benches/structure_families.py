@@ -8,6 +8,14 @@ import os
 
 import numpy as np
 
+TABLES = """[tables]
+nodes = "nodes.csv"
+sections = "sections.csv"
+ribs = "ribs.csv"
+supports = "supports.csv"
+loads = "loads.csv"
+"""
+
 
 def write_table(path, header, rows):
     with open(path, "w", encoding="utf-8") as out:
@@ -60,13 +68,7 @@ plane = "xz"
 joints = "pinned"
 [materials]
 steel = {{ E = {self.E!r} }}
-[tables]
-nodes = "nodes.csv"
-sections = "sections.csv"
-ribs = "ribs.csv"
-supports = "supports.csv"
-loads = "loads.csv"
-[[constraints]]
+{TABLES}[[constraints]]
 name = "stress"
 for = "ribs"
 cases = ["a", "b"]
@@ -152,13 +154,7 @@ minimize = "volume"
 [structure]
 [materials]
 steel = {{ E = {self.E!r}, nu = 0.3 }}
-[tables]
-nodes = "nodes.csv"
-sections = "sections.csv"
-ribs = "ribs.csv"
-supports = "supports.csv"
-loads = "loads.csv"
-[[constraints]]
+{TABLES}[[constraints]]
 name = "strength_start"
 for = "ribs"
 require = "-{self.STRESS!r} <= stress(live, 0, top) <= {self.STRESS!r}"
