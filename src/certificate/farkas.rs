@@ -64,7 +64,7 @@ struct Rows<'p, 'a> {
 
 impl<'p, 'a> Rows<'p, 'a> {
     fn new(point: &'p Point<'a>, y: &[f64], convex: bool) -> Self {
-        let term = |i: usize| point.terms[i].max(scales::largest_limit(point.meta(), i)).max(f64::MIN_POSITIVE);
+        let term = |i: usize| point.terms.all[i].max(scales::largest_limit(point.meta(), i)).max(f64::MIN_POSITIVE);
         let terms: Vec<f64> = (0..point.rows.len()).map(term).collect();
         let mut told = vec![f64::INFINITY; point.x.len()];
         for (i, _) in y.iter().enumerate().filter(|(_, y)| **y != 0.0) {

@@ -1,9 +1,9 @@
 //! Whether a point meets its limits: its own violation, the nearest point that meets them to the last digit, and points that
 //! meet them only because they are far away.
 
+use super::known_sizes;
 use super::point::{Origin, Point};
 use super::residuals::{Place, Worst, worse};
-use super::scales;
 use super::second_order::Kkt;
 
 /// A variable this many times its known size is far away.
@@ -129,7 +129,7 @@ fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
 
 /// The variables' sizes with those far away held back.
 fn near_scales(point: &Point<'_>) -> Vec<f64> {
-    let known = scales::known_sizes(point.meta(), &point.jacobian);
+    let known = known_sizes::known_sizes(point.origin, point.x, &point.jacobian);
     point.sizes.iter().zip(known).map(|(d, known)| d.min(FAR * known)).collect()
 }
 

@@ -72,12 +72,13 @@ fn with(point: &Point<'_>, multipliers: &Multipliers, units: &[(usize, f64)], fa
     Multipliers { rows, bounds }
 }
 
-/// The largest |∂²c_i/∂x_j∂x_k|·d_j·d_k.
+/// The largest |∂²c_i/∂x_j∂x_k|·d_j·d_k over variables that can move.
 fn sharpest(point: &Point<'_>, i: usize) -> Result<f64, EvaluationError> {
     let meta = point.meta();
     let (mut y, mut values) = (vec![0.0; meta.rows()], vec![0.0; meta.hessian.len()]);
     y[i] = 1.0;
     point.origin.model.hessian(point.x, 0.0, &y, &mut values)?;
     let bend = |((row, column), value): ((usize, usize), f64)| (value * point.sizes[row] * point.sizes[column]).abs();
-    Ok(meta.hessian.iter().zip(values).map(bend).fold(0.0, f64::max))
+    let moves = |&((row, column), _): &((usize, usize), f64)| !meta.is_fixed(row) && !meta.is_fixed(column);
+    Ok(meta.hessian.iter().zip(values).filter(moves).map(bend).fold(0.0, f64::max))
 }

@@ -10,6 +10,7 @@ mod gap;
 mod higher_order;
 mod idle_rows;
 mod implied_box;
+mod known_sizes;
 mod lower_bound;
 mod messages;
 mod multipliers;

@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
 
-use super::scales;
+use super::known_sizes;
+use super::scales::{self, RowTerms};
 use crate::certificate::Side;
 use crate::linear_algebra::FactorizationError;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
@@ -53,7 +54,7 @@ pub(super) struct Point<'a> {
     /// ‖D∇c_i(x)‖∞ over the variables that can move
     pub(super) slopes: Vec<f64>,
     /// max_j |∂c_i/∂x_j·x_j|
-    pub(super) terms: Vec<f64>,
+    pub(super) terms: RowTerms,
     /// A search was ended by the deadline.
     cut_short: AtomicBool,
     /// Mean slopes of the rows about x, computed where they are needed; see [`scales::mean_slopes`].
@@ -70,7 +71,7 @@ impl<'a> Point<'a> {
         origin.model.constraints(x, &mut rows)?;
         let mut jacobian = vec![0.0; meta.jacobian.len()];
         origin.model.jacobian(x, &mut jacobian)?;
-        let sizes = scales::variable_sizes(meta, x, &jacobian);
+        let sizes = known_sizes::variable_sizes(origin, x, &jacobian);
         let sigma = steepest(meta, &gradient, &sizes);
         let slopes = slopes(meta, &jacobian, &sizes);
         let terms = scales::row_terms(meta, x, &jacobian);
@@ -143,7 +144,8 @@ impl<'a> Point<'a> {
             return 0.0;
         }
         let terms = self.row_term(i);
-        let rounding = ROUNDINGS * (limit.abs() + terms * self.meta().jacobian.row(i).len() as f64);
+        let summed = terms.max(self.fixed_term(i)) * self.meta().jacobian.row(i).len() as f64;
+        let rounding = ROUNDINGS * (limit.abs() + summed);
         if violation <= rounding {
             return 0.0;
         }
@@ -162,10 +164,16 @@ impl<'a> Point<'a> {
         if value < lower { (lower - value, lower) } else { (value - upper, upper) }
     }
 
+    /// The largest term of row i that a fixed variable has, where that is more than all others; else 0.
+    fn fixed_term(&self, i: usize) -> f64 {
+        let (moving, all) = (self.terms.moving[i], self.terms.all[i]);
+        if all > moving { all } else { 0.0 }
+    }
+
     /// The largest term of row i. Of a row that is not linear, derivatives without end say nothing: its term is no larger than
     /// the mean slope over a finite step.
     pub(super) fn row_term(&self, i: usize) -> f64 {
-        let term = self.terms[i];
+        let term = self.terms.moving[i];
         if term == 0.0 || self.meta().is_row_linear(i) {
             return term;
         }

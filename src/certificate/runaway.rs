@@ -164,7 +164,8 @@ fn missed(point: &Point<'_>, (i, limit): (usize, f64)) -> f64 {
 fn is_alike(point: &Point<'_>, i: usize, k: usize) -> bool {
     let outwards = |i: usize| {
         let way = if point.nearest_limit(i) == point.meta().row_lower[i] { -1.0 } else { 1.0 };
-        point.row_in_sizes(i).filter(|entry| entry.1 != 0.0).map(move |(j, entry)| (j, way * entry))
+        let moves = |entry: &(usize, f64)| entry.1 != 0.0 && !point.meta().is_fixed(entry.0);
+        point.row_in_sizes(i).filter(moves).map(move |(j, entry)| (j, way * entry))
     };
     let is_equality = |i: usize| point.meta().row_lower[i] == point.meta().row_upper[i];
     let (mut same, mut opposite) = (true, is_equality(i) || is_equality(k));

@@ -1,5 +1,6 @@
 //! What the certificate measures by (docs/certificate.md, «Measures»): sizes of variables, terms of rows, and how steep the
 //! objective is about a point. Nothing here looks at a start the program has invented, nor at values or derivatives at a start.
+//! Sizes that are not seen at the point: `known_sizes`.
 
 use super::point::{Origin, Point};
 use crate::math::split_mix::SplitMix;
@@ -7,48 +8,6 @@ use crate::model::{Meta, Model};
 
 /// Relative steps to places about a point, the first at which the model has a value is taken.
 const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
-
-/// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
-/// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound), and of
-/// bounds on both sides; 1 where none of these tells. A size that is too small makes a test stricter, never laxer.
-pub(super) fn variable_sizes(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
-    let known = known_sizes(meta, jacobian);
-    let size = |(j, &x): (usize, &f64)| {
-        let size = if meta.lower[j] <= 0.0 && meta.upper[j] >= 0.0 { x.abs().max(known[j]) } else { x.abs() };
-        // Neither lost in an underflow nor, for an infeasible 0, nothing at all.
-        if size > f64::MIN_POSITIVE { size } else { known[j].max(f64::MIN_POSITIVE) }
-    };
-    x.iter().enumerate().map(size).collect()
-}
-
-/// What is known of the variables' sizes but for the point itself, see [`variable_sizes`].
-pub(super) fn known_sizes(meta: &Meta, jacobian: &[f64]) -> Vec<f64> {
-    let mut known: Vec<f64> = (0..meta.variables()).map(|j| declared_size(meta, j).unwrap_or(f64::INFINITY)).collect();
-    for i in 0..meta.rows() {
-        let limit = largest_limit(meta, i);
-        if limit == 0.0 {
-            continue;
-        }
-        for at in meta.jacobian.range(i) {
-            let (j, slope) = (meta.jacobian.columns[at] as usize, jacobian[at].abs());
-            if slope > 0.0 {
-                known[j] = known[j].min(limit / slope);
-            }
-        }
-    }
-    // For want of anything better.
-    known.into_iter().map(|size| if size.is_finite() { size } else { 1.0 }).collect()
-}
-
-/// The magnitude of the start that was given, else of a bound; at the most that of bounds on both sides.
-fn declared_size(meta: &Meta, j: usize) -> Option<f64> {
-    let is_size = |size: &f64| *size > 0.0 && size.is_finite();
-    let bounds = [meta.lower[j].abs(), meta.upper[j].abs()];
-    let given = meta.typical.get(j).copied().filter(is_size);
-    let size = given.or_else(|| bounds.into_iter().filter(is_size).reduce(f64::min))?;
-    let within = bounds[0].max(bounds[1]);
-    Some(if within > 0.0 { size.min(within) } else { size })
-}
 
 /// Which variables have no size but the 1 that stands for want of anything better: none at the point, no start, no bound and no
 /// row's limit tells.
@@ -74,10 +33,28 @@ pub(super) fn largest_limit(meta: &Meta, i: usize) -> f64 {
         .fold(0.0, |most, limit| limit.abs().max(most))
 }
 
-/// Row by row the largest term |∂c_i/∂x_j·x_j|: for linear rows their terms, for others those of their first-order form.
-pub(super) fn row_terms(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
-    let term = |at: usize| (jacobian[at] * x[meta.jacobian.columns[at] as usize]).abs();
-    (0..meta.rows()).map(|i| meta.jacobian.range(i).map(term).fold(0.0, f64::max)).collect()
+/// The largest terms |∂c_i/∂x_j·x_j| row by row: for linear rows their terms, for others those of their first-order form.
+#[derive(Clone)]
+pub(super) struct RowTerms {
+    /// Over the variables that can move (over all, where none of a row's can): what a violation is measured by. A fixed variable's
+    /// term is a constant, and says nothing of how near the others bring the row to its limit.
+    pub(super) moving: Vec<f64>,
+    /// Over all variables: what rounding is measured by.
+    pub(super) all: Vec<f64>,
+}
+
+/// The terms of every row at x.
+pub(super) fn row_terms(meta: &Meta, x: &[f64], jacobian: &[f64]) -> RowTerms {
+    let largest = |i: usize, counts: &dyn Fn(usize) -> bool| {
+        let entries = meta.jacobian.range(i).map(|at| (at, meta.jacobian.columns[at] as usize));
+        entries.filter(|&(_, j)| counts(j)).map(|(at, j)| (jacobian[at] * x[j]).abs()).fold(0.0, f64::max)
+    };
+    let can_move = |j: usize| !meta.is_fixed(j);
+    let moves = |i: usize| meta.jacobian.row(i).iter().any(|&j| can_move(j as usize));
+    RowTerms {
+        moving: (0..meta.rows()).map(|i| largest(i, &|j| can_move(j) || !moves(i))).collect(),
+        all: (0..meta.rows()).map(|i| largest(i, &|_| true)).collect(),
+    }
 }
 
 /// Row by row the mean slope over a relative step of all variables, |c_i(x') − c_i(x)| over the step, the larger of both ways:
@@ -132,7 +109,7 @@ pub(super) fn is_quadratic(point: &Point<'_>, j: usize, second: f64) -> bool {
 
 /// x + way·u∘sizes, u in [½, 1] without a pattern, so that sums and differences of variables move, too. A variable that a bound
 /// would stop goes the other way: where nothing moves, nothing is learnt.
-fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
+pub(super) fn moved(meta: &Meta, x: &[f64], sizes: &[f64], way: f64) -> Vec<f64> {
     let share = |j: usize| 0.5 + 0.5 * SplitMix::share(j as u64);
     let there = |j: usize| {
         let (step, lower, upper) = (way * share(j) * sizes[j].abs(), meta.lower[j], meta.upper[j]);

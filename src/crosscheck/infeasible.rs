@@ -4,6 +4,7 @@
 mod explanation;
 mod filter;
 mod moves;
+mod relaxed;
 
 use std::cell::RefCell;
 
@@ -12,13 +13,10 @@ use super::ledger::Ledger;
 use super::seeds::Seeds;
 use super::session::{Session, Solver};
 use super::work::{self, Allowance};
-use crate::certificate::{Certificate, Certifier, contradiction};
+use crate::certificate::{Certifier, contradiction};
 use crate::model::{Elastic, Model, Substitution};
+use relaxed::{Asked, Relaxed, carriers, nothing_violated, sized};
 
-/// Less than this share of a variable's size is rounding.
-const NEGLIGIBLE: f64 = 1e-6;
-/// Multipliers below this, relative, are noise.
-const NOISE: f64 = 1e-6;
 /// Further starts of the elastic phase where violations may have local minima.
 const STARTS: usize = 16;
 
@@ -83,23 +81,6 @@ struct Work<'a> {
     explanation: f64,
 }
 
-/// An elastic minimum.
-struct Relaxed {
-    x: Vec<f64>,
-    violation: f64,
-    certificate: Certificate,
-    /// Multipliers of the model's rows, length m.
-    multipliers: Vec<f64>,
-    /// Rows with multipliers, and the side they give way on: without them the violation could shrink.
-    carriers: Vec<(usize, bool)>,
-}
-
-impl Relaxed {
-    fn is_better(&self, other: &Relaxed) -> bool {
-        (other.certificate.certified, self.violation) < (self.certificate.certified, other.violation)
-    }
-}
-
 /// Where the elastic phase ended.
 enum Least {
     Feasible(Vec<f64>),
@@ -149,6 +130,11 @@ impl<'a> Work<'a> {
         relaxed.violation > self.least() && worst.is_some_and(|worst| worst > self.session.tolerances.constraint)
     }
 
+    /// Whether a point meets the rows of an elastic model, which it is judged by.
+    fn meets(&self, judge: &Certifier<'_>, x: &[f64]) -> bool {
+        judge.primal_infeasibility(x).is_some_and(|worst| worst <= self.session.tolerances.constraint)
+    }
+
     /// Begins a phase with work of its own.
     fn refill(&self) {
         *self.allowance.borrow_mut() = Allowance::new(self.explanation);
@@ -180,7 +166,7 @@ impl<'a> Work<'a> {
             if self.session.clock.is_over() || (best.is_some() && self.is_over()) {
                 break;
             }
-            let Some(relaxed) = self.relax_by(cheapest, self.model, rows, &start) else { continue };
+            let Some(relaxed) = self.relax_by(cheapest, self.model, rows, &start, Asked::Multipliers) else { continue };
             if self.is_feasible(&relaxed.x) {
                 return Some(Least::Feasible(relaxed.x));
             }
@@ -194,7 +180,7 @@ impl<'a> Work<'a> {
             }
             self.refill();
             let near = best.as_ref().map_or_else(|| first.clone(), |best| best.x.clone());
-            let Some(relaxed) = self.relax_by(solver, self.model, rows, &near) else { continue };
+            let Some(relaxed) = self.relax_by(solver, self.model, rows, &near, Asked::Multipliers) else { continue };
             if self.is_feasible(&relaxed.x) {
                 return Some(Least::Feasible(relaxed.x));
             }
@@ -207,17 +193,17 @@ impl<'a> Work<'a> {
 
     /// The elastic minimum over these rows by the first backend that proves it, else the lowest.
     fn relax(&self, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
-        self.relax_model(self.model, rows, start)
+        self.relax_model(self.model, rows, start, Asked::Multipliers)
     }
 
     /// The same with the bounds of `model`.
-    fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
+    fn relax_model(&self, model: &dyn Model, rows: &[usize], start: &[f64], asked: Asked) -> Option<Relaxed> {
         let mut best: Option<Relaxed> = None;
         for &solver in &self.solvers {
             if best.is_some() && self.is_over() {
                 break;
             }
-            let Some(relaxed) = self.relax_by(solver, model, rows, start) else { continue };
+            let Some(relaxed) = self.relax_by(solver, model, rows, start, asked) else { continue };
             let proved = relaxed.certificate.certified || self.is_feasible(&relaxed.x);
             if best.as_ref().is_none_or(|best| relaxed.is_better(best)) {
                 best = Some(relaxed);
@@ -230,12 +216,15 @@ impl<'a> Work<'a> {
     }
 
     /// The elastic minimum over these rows by one backend.
-    fn relax_by(&self, solver: Solver<'_>, model: &dyn Model, rows: &[usize], start: &[f64]) -> Option<Relaxed> {
+    fn relax_by(&self, solver: Solver<'_>, model: &dyn Model, rows: &[usize], start: &[f64], asked: Asked) -> Option<Relaxed> {
         let elastic = Elastic::new(model, rows.to_vec(), &sized(model, start), start).ok()?;
         let judge = Certifier::new(&elastic, self.session.task.class, self.session.tolerances);
         let solution = self.solve(solver, &elastic, &elastic.meta().start);
-        let certificate = judge.certify(&solution.x, solution.multipliers.as_deref()).ok()?;
         let violation = elastic.violation(&solution.x);
+        let certificate = match asked {
+            Asked::WhetherAny if violation <= self.least() && self.meets(&judge, &solution.x) => nothing_violated(&elastic),
+            _ => judge.certify(&solution.x, solution.multipliers.as_deref()).ok()?,
+        };
         let mut multipliers = vec![0.0; self.model.meta().rows()];
         for (k, &y) in certificate.row_multipliers.iter().enumerate() {
             multipliers[elastic.row(k)] = y;
@@ -257,17 +246,4 @@ impl<'a> Work<'a> {
         let found = contradiction(self.model, &relaxed.x, &relaxed.multipliers, self.is_global(), accepted);
         found.is_ok_and(|found| found.is_some())
     }
-}
-
-/// `x` where variables that are zero but for rounding stand at the model's start: what rounding has left of them would be taken
-/// for their size.
-fn sized(model: &dyn Model, x: &[f64]) -> Vec<f64> {
-    let size = |start: f64| if start == 0.0 { 1.0 } else { start.abs() };
-    x.iter().zip(&model.meta().start).map(|(&x, &start)| if x.abs() < NEGLIGIBLE * size(start) { start } else { x }).collect()
-}
-
-/// Multipliers of the elastic problem lie between −1/S and 1/S; noise is far below.
-fn carriers(elastic: &Elastic<'_>, certificate: &Certificate) -> Vec<(usize, bool)> {
-    let y = certificate.row_multipliers.iter().enumerate();
-    y.filter(|&(k, y)| (y * elastic.scale(k)).abs() > NOISE).map(|(k, &y)| (elastic.row(k), y > 0.0)).collect()
 }

@@ -14,6 +14,8 @@ const PROXIMAL: f64 = 1e-10;
 const DUAL: f64 = 1e-14;
 /// The same where the steps are to stay at a stationary point: the accepted slope of 1e−6 moves it by 1e−3 at the most.
 const DAMPED: f64 = 1e-3;
+/// Curvature below this is what an underflow has left of it.
+const LEAST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// A place on the floor with the row multipliers there.
 #[derive(Clone)]
@@ -28,18 +30,24 @@ pub(super) fn settle(site: &Site<'_>, pivot: usize, mut place: Floor) -> Option<
     if moving.is_empty() && site.held.is_empty() {
         return Some(place);
     }
+    let mut was_short = false;
     for _ in 0..CORRECTIONS {
         let step = newton_step(site, &moving, &place, Towards::Floor(PROXIMAL))?;
         let longest = take(site, &moving, &step, &mut place.x);
+        // While multipliers still change, their regularisation keeps the place off the rows: only the next step leads there.
+        let mut holds = true;
         for (k, &(i, _)) in site.held.iter().enumerate() {
-            place.multipliers[i] += step[moving.len() + k];
+            let change = step[moving.len() + k];
+            place.multipliers[i] += change;
+            holds &= change.abs() <= SETTLED * place.multipliers[i].abs();
         }
         if !place.x.iter().chain(&place.multipliers).all(|value| value.is_finite()) {
             return None;
         }
-        if longest <= SETTLED {
+        if longest <= SETTLED && (holds || was_short) {
             return Some(place);
         }
+        was_short = longest <= SETTLED;
     }
     // A variable that goes to zero never settles by its own measure; the height judges the place.
     Some(place)
@@ -130,7 +138,8 @@ fn newton_step(site: &Site<'_>, moving: &[usize], place: &Floor, towards: Toward
         }
     }
     let d = |k: usize| site.sizes[moving[k]];
-    let size: Vec<f64> = (0..n).map(|k| (0..n).map(|l| matrix[(k, l)].abs() * (d(l) / d(k))).sum()).collect();
+    let size = |k: usize| (0..n).map(|l| matrix[(k, l)].abs() * (d(l) / d(k))).sum();
+    let size: Vec<f64> = (0..n).map(size).map(|size: f64| if size > LEAST { size } else { 0.0 }).collect();
     for (k, &(i, _)) in site.held.iter().enumerate() {
         for entry in meta.jacobian.range(i) {
             let j = at[meta.jacobian.columns[entry] as usize];

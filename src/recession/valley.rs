@@ -51,6 +51,9 @@ impl Site<'_> {
 /// The valley about a site.
 pub struct Valley<'a> {
     site: Site<'a>,
+    /// Rows that have a multiplier, with its limit: all of them, whether they are held or follow from others that are. A violation
+    /// is paid for by the multipliers of all rows that have it.
+    priced: Vec<(usize, f64)>,
 }
 
 /// Which variable is moved, its first step, and how the others go with it.
@@ -78,7 +81,11 @@ impl Lead {
 impl<'a> Valley<'a> {
     /// The valley about a site.
     pub fn new(site: Site<'a>) -> Self {
-        Valley { site }
+        let meta = site.meta();
+        let limit = |(i, &y): (usize, &f64)| (i, if y > 0.0 { meta.row_upper[i] } else { meta.row_lower[i] });
+        let priced = site.multipliers.iter().enumerate().filter(|(_, y)| **y != 0.0).map(limit);
+        let priced = priced.filter(|(_, limit)| limit.is_finite()).collect();
+        Valley { site, priced }
     }
 
     /// How the objective falls, going on for ever in this direction (length n; the variable that moves most is led, the others follow
@@ -208,7 +215,7 @@ impl<'a> Valley<'a> {
         }
     }
 
-    /// f + Σ|y_i|·violation_i over the rows that hold, and what the last digits of x and of its terms make of it.
+    /// f + Σ|y_i|·violation_i over the rows with a multiplier, and what the last digits of x and of its terms make of it.
     fn height(&self, floor: &Floor) -> Option<Height> {
         let (objective, bought) = self.value(&floor.x)?;
         let change = |x: &[f64]| {
@@ -226,7 +233,7 @@ impl<'a> Valley<'a> {
         let mut rows = vec![0.0; self.site.meta().rows()];
         self.site.model.constraints(x, &mut rows).ok()?;
         let bought = |&(i, limit): &(usize, f64)| self.site.multipliers[i] * (rows[i] - limit);
-        Some((self.site.model.objective(x).ok()?, self.site.held.iter().map(bought).collect()))
+        Some((self.site.model.objective(x).ok()?, self.priced.iter().map(bought).collect()))
     }
 }
 

@@ -17,11 +17,20 @@ pub struct Variable {
     pub upper: Vec<f64>,
     /// `None`: left out.
     pub start: Option<Vec<f64>>,
+    /// Of a row: counted from elsewhere it would take the row's tolerance with it.
+    pub is_slack: bool,
 }
 
 impl Variable {
     pub fn scalar(name: String, [lower, upper]: [f64; 2], start: Option<f64>) -> Variable {
-        Variable { name, is_array: false, lower: vec![lower], upper: vec![upper], start: start.map(|start| vec![start]) }
+        Variable {
+            name,
+            is_array: false,
+            lower: vec![lower],
+            upper: vec![upper],
+            start: start.map(|start| vec![start]),
+            is_slack: false,
+        }
     }
 
     /// How large element `i` is: its start, else its nearest bound, else 1.
@@ -66,6 +75,14 @@ pub struct Origin {
     pub now: String,
     /// The latest first: from the draft's value back to the file's.
     pub steps: Vec<Step>,
+}
+
+impl Origin {
+    /// How far the draft's zero lies from the file's, in the file's unit.
+    pub fn offset(&self) -> f64 {
+        let is_affine = self.steps.iter().all(|step| *step != Step::Reciprocal);
+        if is_affine { self.steps.iter().fold(0.0, |value, step| step.apply(value)).abs() } else { 0.0 }
+    }
 }
 
 /// The whole file.

@@ -1,18 +1,18 @@
 //! Whether a run of a transformed problem says what is true of the file.
 
-use ribopt::certificate::{Certificate, Extent};
+use ribopt::certificate::Extent;
 use ribopt::crosscheck::Status;
 use ribopt::model::Class;
 
 use super::kinds::Done;
-use super::solving::Run;
+use super::solving::{InFile, Run};
 
 /// Of an objective, relative to max(1, |optimum|).
 const ACCURACY: f64 = 1e-6;
 /// The same where the minimum has no multipliers: what feasibility tolerates enters by a root.
 const ACCURACY_WITHOUT_MULTIPLIERS: f64 = 5e-3;
 /// A certified point taken back to the file may miss its limits by this much: the tolerance 1e-8 and what the way back rounds.
-const FEASIBLE_IN_FILE: f64 = 1e-6;
+pub const FEASIBLE_IN_FILE: f64 = 1e-6;
 /// A dual infeasibility in the file that no rounding of the way back explains: optimality is accepted at 1e-6.
 const NOT_STATIONARY: f64 = 1e-4;
 /// Points that have run off have the objective's infimum to this; a local minimum seldom has.
@@ -70,10 +70,8 @@ pub fn judge(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
             Some((Grade::WronglyInfeasible, format!("a feasible problem, said with {:?} scope", run.scope).to_lowercase()))
         }
         (_, Status::Certified) if is_one_of(&truth.minima, run, ACCURACY) => None,
-        (was, Status::Certified) => {
-            let grade = if may_be_a_minimum(truth, done, run) { Grade::Different } else { Grade::WronglyCertified };
-            Some((grade, format!("the problem is {}", was.as_str())))
-        }
+        (_, Status::Certified) if may_be_a_minimum(truth, done, run) => None,
+        (was, Status::Certified) => Some((Grade::WronglyCertified, format!("the problem is {}", was.as_str()))),
         (Status::Certified, Status::Uncertified)
             if truth.without_multipliers && is_one_of(&truth.minima, run, ACCURACY_WITHOUT_MULTIPLIERS) =>
         {
@@ -97,7 +95,7 @@ fn is_local_from_elsewhere(done: &Done, run: &Run) -> bool {
 /// From another start a problem that is unbounded or not attained may have a local minimum. The file confirms it, and it is not where
 /// the objective settles at as variables run off.
 fn may_be_a_minimum(truth: &Truth, done: &Done, run: &Run) -> bool {
-    let confirmed = run.in_file.as_ref().is_some_and(|in_file| in_file.certified);
+    let confirmed = run.in_file.as_ref().is_some_and(|in_file| in_file.certificate.certified);
     let settled = truth.settles.zip(run.objective).is_some_and(|(infimum, value)| near(value, infimum, SETTLED));
     is_local_from_elsewhere(done, run) && confirmed && truth.status != Status::Infeasible && !settled
 }
@@ -134,17 +132,19 @@ fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
 }
 
 /// What the file itself has against a certified point.
-fn contradiction(value: f64, in_file: &Certificate) -> Option<String> {
-    if in_file.primal_infeasibility > FEASIBLE_IN_FILE {
-        return Some(format!("the point misses the file's limits by {:.1e}", in_file.primal_infeasibility));
+fn contradiction(value: f64, in_file: &InFile) -> Option<String> {
+    if in_file.misses > FEASIBLE_IN_FILE {
+        return Some(format!("the point misses the file's limits by {:.1e}", in_file.misses));
     }
+    let in_file = &in_file.certificate;
     let same = near(value, in_file.objective, 10.0 * ACCURACY);
     (!same).then(|| format!("the file's objective at the point is {:?}, not {value:?}", in_file.objective))
 }
 
 /// A certified value that is not among the known ones, in a problem whose minima are local.
-fn another_minimum(in_file: Option<&Certificate>, done: &Done, off: &str) -> Option<Fault> {
+fn another_minimum(in_file: Option<&InFile>, done: &Done, off: &str) -> Option<Fault> {
     let Some(in_file) = in_file else { return Some((Grade::Different, format!("{off}, which the file cannot be asked about"))) };
+    let in_file = &in_file.certificate;
     if in_file.certified {
         return (!done.moves_start).then(|| (Grade::Different, format!("another local minimum, {off}")));
     }

@@ -102,8 +102,9 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     let mut files: Vec<PathBuf> =
         plan.folders.iter().flat_map(|folder| support::problem_files(&folder.to_string_lossy())).collect();
     files.retain(|file| !plan.without.iter().any(|part| file.to_string_lossy().contains(part)) && is_transformable(file));
-    // No more of them than runs: a sample needs no more.
-    Random::of_run(plan.seed, usize::MAX).shuffle(&mut files);
+    // No more of them than runs: a sample needs no more. A file that is new takes the place of one, and leaves the others theirs.
+    let place = |file: &PathBuf| Random::of_run(plan.seed, &name(file), usize::MAX).between(0.0, 1.0);
+    files.sort_by(|one, other| place(one).total_cmp(&place(other)));
     files.truncate(plan.first + plan.count);
     let read = side_by_side(plan.jobs, files.len(), &|at| problem(&files[at], plan));
     let mut found = Found::default();
@@ -122,7 +123,7 @@ pub fn run(plan: &Plan) -> Result<Found, String> {
     let count = AtomicUsize::new(0);
     let runs = side_by_side(plan.jobs, plan.count, &|at| {
         let number = plan.first + at;
-        one(number, &problems[number % problems.len()], plan, &count)
+        one(number, number / problems.len(), &problems[number % problems.len()], plan, &count)
     });
     for (finding, late) in runs.into_iter().flatten() {
         found.runs += 1;
@@ -225,13 +226,15 @@ fn untransformed(problem: &Problem, plan: &Plan) -> Option<Finding> {
 /// A run's fault and its lateness, where it has them.
 type Ended = (Option<Finding>, Option<(f64, String, String)>);
 
-/// One run. `None` where no transformation applies.
-fn one(number: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Option<Ended> {
+/// One run, of this round of the problem's. `None` where no transformation applies.
+fn one(number: usize, round: usize, problem: &Problem, plan: &Plan, count: &AtomicUsize) -> Option<Ended> {
     let mut draft = problem.draft.clone();
-    let done = transform(&mut draft, problem.truth.class, plan.only.as_deref(), &mut Random::of_run(plan.seed, number))?;
+    let mut random = Random::of_run(plan.seed, &problem.name, round);
+    let done = transform(&mut draft, problem.truth.class, plan.only.as_deref(), &mut random)?;
     let name = format!("{number:06}-{}-{}", problem.name, done.name());
     let (kept, folder) = (plan.folder.join(format!("{name}.toml")), plan.folder.join(&name));
-    let origin = format!("# {} transformed: {}; seed {}, run {number}", problem.path.display(), done.name(), plan.seed);
+    let origin =
+        format!("# {} transformed: {}; seed {}, run {number}, round {round}", problem.path.display(), done.name(), plan.seed);
     // A crash leaves the file that caused it.
     let written = fs::write(&kept, format!("{origin}\n{}", draft.text())).map_err(|cause| cause.to_string());
     let result = written.and_then(|()| solving::run(&kept, &draft, &problem.path, &folder, plan.seconds));

@@ -6,10 +6,11 @@ use ribopt::math::split_mix::SplitMix;
 pub struct Random(SplitMix);
 
 impl Random {
-    /// The stream of one run: its seed and number decide, so that a run can be repeated alone.
-    pub fn of_run(seed: u64, run: usize) -> Random {
-        let mixed = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ (run as u64).wrapping_mul(0xA24B_AED4_963E_E407);
-        let mut stream = SplitMix::new(mixed);
+    /// The stream of a file's runs in one round: its seed, name and round decide, so that other files have no part in it.
+    pub fn of_run(seed: u64, name: &str, round: usize) -> Random {
+        let file = name.bytes().fold(0u64, |hash, byte| hash.wrapping_mul(0x0000_0100_0000_01B3) ^ u64::from(byte));
+        let mixed = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ (round as u64).wrapping_mul(0xA24B_AED4_963E_E407);
+        let mut stream = SplitMix::new(mixed ^ file.rotate_left(17));
         stream.uniform();
         Random(stream)
     }

@@ -63,7 +63,7 @@ fn variable(problem: &Problem, name: String, written: &Value) -> Variable {
     let is_array = own.iter().any(|&j| matches!(declared.origin[j], Declared::Element(..)));
     let has_start = written.get("start").is_some();
     let start = has_start.then(|| pick(&declared.start));
-    Variable { is_array, lower: pick(&declared.lower), upper: pick(&declared.upper), start, name }
+    Variable { is_array, lower: pick(&declared.lower), upper: pick(&declared.upper), start, name, is_slack: false }
 }
 
 fn row((at, row): (usize, Value)) -> Option<Row> {

@@ -129,7 +129,7 @@ pub fn write_out_slacks(draft: &mut Draft, random: &mut Random) -> bool {
         let name = draft.fresh("slack");
         if let Some((require, bounds)) = slack(&draft.rows[at], &name) {
             draft.rows[at].require = require;
-            draft.variables.push(Variable::scalar(name, bounds, None));
+            draft.variables.push(Variable { is_slack: true, ..Variable::scalar(name, bounds, None) });
         }
     }
     !chosen.is_empty()

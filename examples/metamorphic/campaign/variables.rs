@@ -121,7 +121,7 @@ const NO_SIZE: f64 = 1e12;
 /// Variables counted from elsewhere, by up to ten times their size. Powers of two: most bounds are moved without rounding.
 pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
     lift_dimensions(draft);
-    for at in 0..draft.variables.len() {
+    for at in (0..draft.variables.len()).filter(|&at| !draft.variables[at].is_slack).collect::<Vec<usize>>() {
         let variable = &draft.variables[at];
         let shift = |i: usize| {
             let size = Some(variable.size(i)).filter(|&size| size < NO_SIZE).unwrap_or(1.0);
@@ -206,8 +206,16 @@ fn change_side(draft: &mut Draft, random: &mut Random, change: impl Fn(String) -
     row.require = changed.map_or(row.require.clone(), |requirement| requirement.text());
 }
 
+/// Whether a start decides what the rows are: of formulas that a code gives by ranges, the one of the start's range is stated.
+fn states_rows(draft: &Draft) -> bool {
+    draft.rest.iter().any(|(key, _)| key == "checks")
+}
+
 /// Starts anywhere inside the bounds.
 pub fn start_elsewhere(draft: &mut Draft, random: &mut Random) -> bool {
+    if states_rows(draft) {
+        return false;
+    }
     lift_dimensions(draft);
     for variable in &mut draft.variables {
         let start = (0..variable.lower.len()).map(|i| inside(variable, i, random)).collect();
@@ -231,6 +239,9 @@ fn inside(variable: &Variable, i: usize, random: &mut Random) -> f64 {
 
 /// No starts.
 pub fn leave_out_starts(draft: &mut Draft, _: &mut Random) -> bool {
+    if states_rows(draft) {
+        return false;
+    }
     let mut any = false;
     for variable in &mut draft.variables {
         any |= variable.start.take().is_some();

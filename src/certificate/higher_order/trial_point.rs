@@ -2,7 +2,7 @@
 
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::point::Point;
-use crate::certificate::scales;
+use crate::certificate::scales::{self, RowTerms};
 use crate::model::Model;
 
 /// Roundings a sum of such magnitudes may hide.
@@ -17,7 +17,7 @@ pub(in crate::certificate) struct Trial<'x> {
     pub(in crate::certificate) objective: f64,
     rows: Vec<f64>,
     /// The rows' terms here, or, where they have no derivatives here, at the judged point.
-    terms: Vec<f64>,
+    terms: RowTerms,
 }
 
 impl<'x> Trial<'x> {
@@ -39,8 +39,8 @@ impl<'x> Trial<'x> {
     pub(in crate::certificate) fn is_feasible(&self, point: &Point<'_>, tolerance: f64) -> bool {
         let meta = point.meta();
         let scale = |i: usize, limit: f64| {
-            let rounding = ROUNDINGS * (limit.abs() + self.terms[i].max(point.terms[i]));
-            tolerance * limit.abs().max(self.terms[i]) + rounding + CORRECTED * point.slopes[i]
+            let rounding = ROUNDINGS * (limit.abs() + self.terms.all[i].max(point.terms.all[i]));
+            tolerance * limit.abs().max(self.terms.moving[i]) + rounding + CORRECTED * point.slopes[i]
         };
         let meets = |i: usize| {
             let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.rows[i]);

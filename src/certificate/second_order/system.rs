@@ -133,7 +133,7 @@ fn merged(a: &[usize], b: &[usize]) -> Vec<usize> {
     both
 }
 
-/// S = D∇²L D/σ along the model's pattern, and row by row the sum of the magnitudes it is made of.
+/// S = D∇²L D/σ along the model's pattern (0 where a variable cannot move), and row by row the sum of the magnitudes it is made of.
 pub(in crate::certificate) struct Hessian {
     pub(in crate::certificate) values: Vec<f64>,
     pub(in crate::certificate) size: Vec<f64>,
@@ -161,7 +161,9 @@ impl Hessian {
                 continue;
             }
             point.origin.model.hessian(point.x, weight, &chosen, &mut part)?;
-            for (at, (row, column)) in pattern.iter().enumerate() {
+            let meta = point.meta();
+            let moves = |&(_, (row, column)): &(usize, (usize, usize))| !meta.is_fixed(row) && !meta.is_fixed(column);
+            for (at, (row, column)) in pattern.iter().enumerate().filter(moves) {
                 // In this order: the square of a very large size overflows by itself.
                 let entry = part[at] * point.sizes[row] / point.scale() * point.sizes[column];
                 hessian.values[at] += entry;

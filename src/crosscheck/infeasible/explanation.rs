@@ -2,7 +2,8 @@
 
 use super::super::Conflict;
 use super::filter::{self, Core, Member};
-use super::{Elasticity, NOISE, Relaxed, Work, moves};
+use super::relaxed::{NOISE, Relaxed};
+use super::{Elasticity, Work, moves};
 
 impl<'a> Work<'a> {
     /// The violated rows, a small set that conflicts, and single moves that are enough; or the feasible point the search for

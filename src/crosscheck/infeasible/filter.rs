@@ -1,7 +1,8 @@
 //! The deletion filter of Chinneck and Dravnieks (1991) over rows and bounds, begun from those with multipliers at the elastic
 //! minimum.
 
-use super::{Relaxed, Work};
+use super::Work;
+use super::relaxed::{Asked, Relaxed};
 use crate::model::WithBounds;
 
 /// Limits tried at the most.
@@ -98,7 +99,8 @@ impl Trial<'_, '_> {
         let lower = (0..meta.variables()).map(|j| if keeps(j, false) { meta.lower[j] } else { f64::NEG_INFINITY });
         let upper = (0..meta.variables()).map(|j| if keeps(j, true) { meta.upper[j] } else { f64::INFINITY });
         let model = WithBounds::new(self.work.model, lower.collect(), upper.collect());
-        match self.work.relax_model(&model, &rows, self.start).filter(|relaxed| relaxed.certificate.certified) {
+        match self.work.relax_model(&model, &rows, self.start, Asked::WhetherAny).filter(|relaxed| relaxed.certificate.certified)
+        {
             Some(relaxed) if relaxed.violation > self.work.least() => Decision::Conflict(self.work.members(&relaxed)),
             Some(_) => Decision::Compatible,
             None => Decision::Open,

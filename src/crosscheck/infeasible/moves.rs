@@ -1,8 +1,9 @@
 //! Single limits whose move makes the problem feasible: what an engineer asks for. Each is found by a solve of the problem with
 //! that one limit released, and shown by the point it ends at, which is judged anew in the user's model.
 
+use super::Work;
 use super::filter::Member;
-use super::{Relaxed, Work};
+use super::relaxed::Relaxed;
 use crate::certificate::Certifier;
 use crate::crosscheck::LimitMove;
 use crate::model::{Freed, Limit, Model};
