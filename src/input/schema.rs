@@ -1,6 +1,8 @@
 //! The JSON Schema of the problem file, for completion and checks in editors.
 
 mod checks;
+mod sets;
+mod solver;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -8,7 +10,6 @@ mod tests;
 use serde_json::{Map, Value, json};
 
 use super::parse_tables::{DEFAULT_DEGREE, PROFILE_KINDS};
-use crate::problem::settings::{AUTO, BACKENDS, BackendNames, Settings};
 use crate::sections::{self, Form, Kind};
 
 /// The schema (JSON Schema, draft 2020-12). Section kinds and their dimensions come from [`sections::KINDS`].
@@ -31,7 +32,7 @@ pub fn schema() -> Value {
             "parameters": map_of(one_or_many(), "Constants: numbers, arrays, or expressions in other parameters."),
             "variables": map_of(variable(), "Free design variables."),
             "profiles": map_of(profile(), "B-splines of few control values along a line, used as profile(NAME, s)."),
-            "definitions": map_of(scalar("An expression."), "Names for expressions, in any order, without circles."),
+            "definitions": map_of(definition(), "Names for expressions, in any order, without circles."),
             "catalogues": map_of(catalogue(), "Families of sections, a CSV file each; used by kind = \"catalogue\"."),
             "sections": map_of(section(), "Cross-sections."),
             "ribs": { "type": "array", "items": rib() },
@@ -44,7 +45,7 @@ pub fn schema() -> Value {
             "combinations": map_of(map_of(scalar("Factor."), "Factors by load case."), "Combinations of load cases."),
             "constraints": { "type": "array", "items": constraint() },
             "checks": { "type": "array", "items": checks::check() },
-            "solver": solver(),
+            "solver": solver::solver(),
             "tables": object(json!({
                 "sections": text("CSV table of sections: name, kind, dimensions (b, or b.lower, b.upper, b.start), data."),
                 "ribs": text("CSV table of ribs: name, from, to (or section), length (or start and end), volume, data."),
@@ -67,7 +68,7 @@ fn scalar(description: &str) -> Value {
 }
 
 fn one_or_many() -> Value {
-    json!({ "type": ["number", "string", "array"], "items": { "type": ["number", "string"] } })
+    json!({ "type": ["number", "string", "array"], "items": { "type": ["number", "string", "array"] } })
 }
 
 fn map_of(value: Value, description: &str) -> Value {
@@ -76,6 +77,35 @@ fn map_of(value: Value, description: &str) -> Value {
 
 fn object(properties: Value, required: &[&str]) -> Value {
     json!({ "type": "object", "additionalProperties": false, "properties": properties, "required": required })
+}
+
+/// A table, or a value of one of these types. Keys of a table are judged as they stand, not as one way among others: a mistake in them
+/// is told once, and where it is.
+fn or_table(types: &[&str], mut table: Value, description: &str) -> Value {
+    table["type"] = types.iter().copied().chain(["object"]).collect();
+    table["description"] = json!(description);
+    table
+}
+
+/// A table, or one of these words.
+fn or_word(words: &[&str], table: Value, description: &str) -> Value {
+    let mut either = or_table(&["string"], table, description);
+    either["if"] = json!({ "type": "string" });
+    either["then"] = json!({ "enum": words });
+    either
+}
+
+/// An expression, or a sequence.
+fn definition() -> Value {
+    let sequence = object(
+        json!({
+            "for": { "type": "string", "pattern": "^.* in 1\\.\\..*$", "description": "The numbers of its elements: i in 1..N." },
+            "first": one_or_many(),
+            "value": scalar("An element by its number and those before it: v[i-1] + a[i]."),
+        }),
+        &["for", "value"],
+    );
+    or_table(&["number", "string"], sequence, "An expression, or a sequence of elements each made of those before it.")
 }
 
 /// Control values of a profile.
@@ -133,6 +163,7 @@ fn section() -> Value {
     json!({
         "type": "object",
         "required": ["kind"],
+        "additionalProperties": true, // the kind's rule knows which; Tombi wants it said
         "properties": { "kind": { "enum": kinds, "description": "What it is a section of." } },
         "allOf": sections::KINDS.iter().map(rule).chain([catalogue_section()]).collect::<Vec<Value>>(),
     })
@@ -156,7 +187,7 @@ fn catalogue() -> Value {
         }),
         &["file"],
     );
-    json!({ "anyOf": [text("CSV: name, A, Ix, …"), table], "description": "Sections to choose from." })
+    or_table(&["string"], table, "Sections to choose from: a CSV table (name, A, Ix, …), or what it is a family of.")
 }
 
 /// All keys of a kind, and the sets of dimensions of which one must be given.
@@ -166,14 +197,10 @@ fn of_kind(kind: &'static dyn Kind) -> Value {
         "step": scalar("Values from the lower bound in steps of this."), "values": list_of_values(),
         "integer": { "type": "boolean", "description": "Whole numbers only." },
     });
-    let own = object(range, &[]);
-    let dimension = json!({
-        "anyOf": [scalar("A fixed number, or an expression."), own],
-        "description": "A number (fixed), bounds and start (a variable), or an expression.",
-    });
+    let about = "A number (fixed), bounds and start (a variable), or an expression.";
+    let dimension = or_table(&["number", "string"], object(range, &[]), about);
     let mut properties = Map::new();
-    properties.insert("kind".into(), json!({ "const": kind.name() }));
-    properties.insert("data".into(), data());
+    properties.extend([("kind".into(), json!({ "const": kind.name() })), ("data".into(), data())]);
     if kind.has_outline() {
         properties.insert("points".into(), points());
     }
@@ -190,18 +217,12 @@ fn of_kind(kind: &'static dyn Kind) -> Value {
         };
         properties.insert(key.to_owned(), value);
     }
-    let asked = |form: &&Form| form.dimensions.iter().map(|name| list_name(name).unwrap_or(name)).collect::<Vec<&str>>();
-    let points = kind.has_outline().then_some("points");
-    let mut rule = object(Value::Object(properties), &["kind"].into_iter().chain(points).collect::<Vec<_>>());
-    match forms.as_slice() {
-        [one] => {
-            let required: Vec<&str> = ["kind"].into_iter().chain(points).chain(asked(one)).collect();
-            rule["required"] = json!(required);
-        }
-        forms => {
-            let alternatives = forms.iter().map(|form| json!({ "required": asked(form) }));
-            rule["anyOf"] = alternatives.collect();
-        }
+    let named = |name: &&'static str| list_name(name).unwrap_or(name);
+    let fixed = || ["kind"].into_iter().chain(kind.has_outline().then_some("points"));
+    let asked = forms.iter().map(|form| fixed().chain(form.dimensions.iter().map(named)).collect()).collect();
+    let mut rule = object(Value::Object(properties), &[]);
+    if let (Some(rule), Value::Object(needs)) = (rule.as_object_mut(), sets::one_of_sets(asked)) {
+        rule.extend(needs);
     }
     rule
 }
@@ -230,9 +251,17 @@ fn rib() -> Value {
         &["name"],
     );
     structure::member(&mut rib["properties"]);
+    let both = |one: &str, other: &str, alone: &str| {
+        json!({
+            "if": { "required": [one] },
+            "then": { "required": [other] },
+            "else": { "if": { "required": [other] }, "then": { "required": [one] }, "else": { "required": [alone] } },
+        })
+    };
+    let one_section = json!({ "properties": { "from": false, "to": false } });
     rib["allOf"] = json!([
-        { "oneOf": [{ "required": ["from", "to"] }, { "required": ["section"] }] },
-        { "anyOf": [{ "required": ["length"] }, { "required": ["start", "end"] }] },
+        { "if": { "required": ["section"] }, "then": one_section, "else": both("from", "to", "section") },
+        both("start", "end", "length"),
     ]);
     rib
 }
@@ -253,30 +282,4 @@ fn constraint() -> Value {
         }),
         &["require"],
     )
-}
-
-fn solver() -> Value {
-    let defaults = Settings::default();
-    let tolerance = |value: f64, what: &str| json!({ "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1, "default": value, "description": what });
-    let count = |value: u64, what: &str| json!({ "type": "integer", "minimum": 1, "default": value, "description": what });
-    let names: Vec<&str> = BACKENDS.iter().map(|backend| backend.name).collect();
-    let mut keys = json!({
-            "backends": { "type": "array", "items": { "enum": names }, "description": "Default: all that are built in." },
-            "optimality_tolerance": tolerance(defaults.optimality_tolerance, "Largest accepted dual infeasibility (TolFun)."),
-            "step_tolerance": tolerance(defaults.step_tolerance, "Relative step below which a run has stopped (TolX)."),
-            "constraint_tolerance": tolerance(defaults.constraint_tolerance, "Largest accepted violation, relative (TolCon)."),
-            "max_iterations": count(defaults.max_iterations, "Iterations per backend."),
-            "max_evaluations": count(defaults.max_evaluations, "Evaluations per backend."),
-            "max_seconds": { "type": "number", "minimum": 0, "default": defaults.max_seconds,
-                "description": "Seconds for the whole command." },
-    });
-    for backend in BACKENDS {
-        keys[backend.name] = algorithm(backend);
-    }
-    object(keys, &[])
-}
-
-fn algorithm(backend: &BackendNames) -> Value {
-    let names: Vec<&str> = [AUTO].iter().chain(backend.algorithms).copied().collect();
-    object(json!({ "algorithm": { "enum": names, "default": AUTO } }), &[])
 }

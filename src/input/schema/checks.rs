@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{object, scalar, text};
+use super::{object, or_word, scalar, text};
 use crate::input::codes::CURVES;
 
 fn names(description: &str) -> Value {
@@ -10,11 +10,11 @@ fn names(description: &str) -> Value {
 }
 
 pub(super) fn check() -> Value {
-    let held = json!({ "const": "held", "description": "It cannot buckle that way." });
     let curves: Vec<&str> = CURVES.iter().map(|(curve, _)| *curve).collect();
     let curve = json!({ "enum": curves, "description": "Buckling curve of Table 6.1." });
     let length = scalar("Buckling length, an expression in the rib's names; \"system\": by the structure's own factor.");
-    let axis = json!({ "anyOf": [held, object(json!({ "length": length, "curve": curve }), &["length"])] });
+    let axis = object(json!({ "length": length, "curve": curve }), &["length"]);
+    let axis = or_word(&["held"], axis, "Its buckling length; \"held\": it cannot buckle that way.");
     let ltb = object(
         json!({
             "length": scalar("Length between lateral restraints."),
@@ -41,7 +41,7 @@ pub(super) fn check() -> Value {
             "phi": scalar("Resistance factor (AISC 360-22)."),
             "made": { "enum": ["rolled", "built-up"] },
             "buckling": object(json!({ "y": axis, "z": axis }), &["y", "z"]),
-            "ltb": { "anyOf": [held, ltb] },
+            "ltb": or_word(&["held"], ltb, "Lateral torsional buckling; \"held\": it cannot buckle that way."),
             "Cm": object(json!({ "y": scalar("Cmy."), "z": scalar("Cmz."), "LT": scalar("CmLT.") }), &["y", "z", "LT"]),
         }),
         &["code", "ribs", "cases", "buckling"],

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{data, map_of, object, scalar, text};
+use super::{data, map_of, object, or_table, or_word, scalar, text};
 
 /// Numbers along the axes: two in a plane, three in space.
 fn along(description: &str) -> Value {
@@ -51,28 +51,32 @@ pub(super) fn material() -> Value {
 }
 
 pub(super) fn node() -> Value {
-    let at = along("Coordinates: numbers, expressions in parameters, or in variables.");
-    json!({ "anyOf": [at, object(json!({ "at": at, "data": data() }), &["at"])] })
+    let about = "Coordinates: numbers, expressions in parameters, or in variables.";
+    let (at, mut node) = (along(about), object(json!({ "at": along(about), "data": data() }), &["at"]));
+    for key in ["items", "minItems", "maxItems"] {
+        node[key] = at[key].clone();
+    }
+    or_table(&["array"], node, about)
 }
 
 pub(super) fn support() -> Value {
     let direction = json!({ "enum": ["x", "y", "z", "rx", "ry", "rz"] });
-    let fix = json!({ "anyOf": [
-        { "enum": ["fixed", "pinned"] },
-        { "type": "array", "items": direction },
-    ], "description": "pinned: all displacements; fixed: everything; or a list of directions." });
+    let about = "pinned: all displacements; fixed: everything; or a list of directions.";
+    let words = ["fixed", "pinned"];
+    let fix = json!({ "type": ["string", "array"], "if": { "type": "string" }, "then": { "enum": words }, "items": direction,
+        "description": about });
     let springs = json!({ "type": "object", "propertyNames": direction, "additionalProperties": scalar("Stiffness.") });
-    let table = object(json!({ "fix": fix, "springs": springs }), &[]);
-    json!({ "anyOf": [fix, table] })
+    let mut support = or_word(&words, object(json!({ "fix": fix, "springs": springs }), &[]), about);
+    support["type"] = json!(["string", "array", "object"]);
+    support["items"] = direction;
+    support
 }
 
 /// Adds to the rib's keys what makes it a member.
 pub(super) fn member(rib: &mut Value) {
     let force = json!({ "type": ["array", "string"], "items": { "enum": ["My", "Mz", "T"] } });
-    let hinges = json!({ "anyOf": [
-        { "enum": ["both", "start", "end"] },
-        object(json!({ "start": force, "end": force }), &[]),
-    ], "description": "Released forces at its ends; both: both moments at both ends." });
+    let hinges = object(json!({ "start": force, "end": force }), &[]);
+    let hinges = or_word(&["both", "start", "end"], hinges, "Released forces at its ends; both: both moments at both ends.");
     let offset = object(json!({ "start": along("Global axes."), "end": along("Global axes.") }), &[]);
     let keys = json!({
         "start": text("Node where it starts."),
