@@ -30,6 +30,8 @@ pub enum AstKind {
     Name(Vec<String>),
     /// `x[3]`, `x[n - 1]`: an array and its index, counted from 1.
     Index(Box<Ast>, Box<Ast>),
+    /// `x[2..N]`: the elements of an array from one to another.
+    Slice(Box<Ast>, Box<[Ast; 2]>),
     /// A function of one argument or a minus sign.
     Unary(Unary, Box<Ast>),
     /// An operator, or `atan2(y, x)`. (`min` and `max` parse to [`AstKind::Fold`].)

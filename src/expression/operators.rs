@@ -21,6 +21,8 @@ pub enum Unary {
     Cosh,
     Tanh,
     Abs,
+    /// The error function.
+    Erf,
     /// ln Γ, for superellipses; not among the functions users write.
     LnGamma,
 }
@@ -65,7 +67,7 @@ pub enum Comparison {
 
 impl Unary {
     /// The functions by the names users write.
-    pub const NAMED: [(&'static str, Unary); 14] = [
+    pub const NAMED: [(&'static str, Unary); 15] = [
         ("sqrt", Unary::Sqrt),
         ("exp", Unary::Exp),
         ("log", Unary::Log),
@@ -80,6 +82,7 @@ impl Unary {
         ("cosh", Unary::Cosh),
         ("tanh", Unary::Tanh),
         ("abs", Unary::Abs),
+        ("erf", Unary::Erf),
     ];
 
     /// The value, by IEEE rules (NaN outside the domain).
@@ -100,6 +103,7 @@ impl Unary {
             Unary::Cosh => x.cosh(),
             Unary::Tanh => x.tanh(),
             Unary::Abs => x.abs(),
+            Unary::Erf => special::erf(x),
             Unary::LnGamma => special::ln_gamma(x),
         }
     }

@@ -24,7 +24,7 @@ pub(super) struct Declaration {
     /// `[variables]`, then the control values of `[profiles]`.
     pub variables: Vec<VariableEntry>,
     pub profiles: Vec<ProfileEntry>,
-    pub definitions: Vec<(Name, Scalar)>,
+    pub definitions: Vec<(Name, DefinitionEntry)>,
     pub catalogues: Vec<CatalogueEntry>,
     pub sections: Vec<SectionEntry>,
     pub ribs: Vec<RibEntry>,
@@ -83,6 +83,37 @@ pub(super) enum Listing {
     Values(Vec<Scalar>),
     /// Whole numbers.
     Integer,
+}
+
+/// An entry of `[definitions]`.
+pub(super) enum DefinitionEntry {
+    One(Scalar),
+    Sequence(SequenceEntry),
+}
+
+/// Elements that follow from those before them.
+pub(super) struct SequenceEntry {
+    /// `i in 1..N`
+    pub range: Written,
+    /// The first elements.
+    pub first: Vec<Scalar>,
+    /// The others, by the index and the elements before.
+    pub value: Written,
+}
+
+impl DefinitionEntry {
+    /// The texts it is made of.
+    pub fn texts(&self) -> impl Iterator<Item = &Written> {
+        let (one, first, value) = match self {
+            DefinitionEntry::One(scalar) => (Some(scalar), &[][..], None),
+            DefinitionEntry::Sequence(entry) => (None, &entry.first[..], Some(&entry.value)),
+        };
+        let scalars = one.into_iter().chain(first).filter_map(|scalar| match scalar {
+            Scalar::Expression(written) => Some(written),
+            Scalar::Number(..) => None,
+        });
+        scalars.chain(value)
+    }
 }
 
 /// An entry of `[profiles]`.

@@ -1,6 +1,20 @@
-//! Gamma's relatives, for superellipses: doors to `spec_math` (Cephes), values checked against SciPy's.
+//! The error function, and Gamma's relatives for superellipses: doors to `spec_math` (Cephes), values checked against SciPy's.
 
 use spec_math::cephes64;
+
+/// The error function erf(x) = 2/√π·∫₀ˣ exp(−t²) dt (DLMF 7.2.1).
+///
+/// ```
+/// assert!((ribopt::math::special::erf(0.5) - 0.520_499_877_813_046_5).abs() < 1e-15);
+/// ```
+pub fn erf(x: f64) -> f64 {
+    cephes64::erf(x)
+}
+
+/// Its derivative, 2/√π·exp(−x²) (DLMF 7.10.1); the second one is −2·x times this.
+pub fn erf_slope(x: f64) -> f64 {
+    std::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp()
+}
 
 /// ln Γ(x) for x > 0; NaN elsewhere (there ln |Γ| would hide a sign no section needs).
 ///

@@ -43,6 +43,10 @@ impl<'a> Found<'a> {
                     self.expression(index);
                 }
             },
+            AstKind::Slice(base, ends) => {
+                self.expression(base);
+                ends.iter().for_each(|end| self.expression(end));
+            }
             // A profile's name is no name of the item's, whatever the item is.
             AstKind::Call(name, list) if name == "profile" => list.iter().skip(1).for_each(|part| self.expression(part)),
             AstKind::Binary(_, left, right) => {

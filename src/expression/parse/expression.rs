@@ -103,9 +103,13 @@ fn named(cursor: &mut Cursor, name: &str) -> Parsed<AstKind> {
         Some(Word::Symbol("(")) => call(cursor, name, span),
         Some(Word::Symbol("[")) => {
             cursor.advance();
-            let index = cursor.nested(expression)?;
+            let (base, index) = (Box::new(Ast { kind: parts(), span }), cursor.nested(expression)?);
+            let last = if cursor.accept("..") { Some(cursor.nested(expression)?) } else { None };
             cursor.expect("]")?;
-            Ok(AstKind::Index(Box::new(Ast { kind: parts(), span }), Box::new(index)))
+            Ok(match last {
+                Some(last) => AstKind::Slice(base, Box::new([index, last])),
+                None => AstKind::Index(base, Box::new(index)),
+            })
         }
         _ => Ok(parts()),
     }
@@ -131,13 +135,20 @@ fn call(cursor: &mut Cursor, name: &str, place: Span) -> Parsed<AstKind> {
         check_arity(cursor, name, span, arguments.len(), 1, usize::MAX);
         return Ok(AstKind::Fold(fold, arguments));
     }
-    if name == "atan2" {
+    if matches!(name, "atan2" | "dot") {
         check_arity(cursor, name, span, arguments.len(), 2, 2);
         let mut given = arguments.into_iter();
         return Ok(match (given.next(), given.next()) {
-            (Some(y), Some(x)) => AstKind::Binary(Binary::Atan2, Box::new(y), Box::new(x)),
+            (Some(y), Some(x)) if name == "atan2" => AstKind::Binary(Binary::Atan2, Box::new(y), Box::new(x)),
+            (Some(a), Some(b)) => {
+                let product = AstKind::Binary(Binary::Multiply, Box::new(a), Box::new(b));
+                AstKind::Fold(Fold::Sum, vec![Ast { kind: product, span }])
+            }
             _ => AstKind::Number(0.0), // the mistake is noted
         });
+    }
+    if name == "quadratic" {
+        check_arity(cursor, name, span, arguments.len(), 2, 2);
     }
     if let Some(function) = unary(name) {
         check_arity(cursor, name, span, arguments.len(), 1, 1);

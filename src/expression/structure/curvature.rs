@@ -205,7 +205,7 @@ fn unary_shape(op: Unary, range: Interval) -> Shape {
         },
         Unary::Cosh => Shape::bowl(range),
         Unary::Sinh | Unary::Asin => Shape::by_sign(range, rising(Concave), rising(Convex)),
-        Unary::Tanh | Unary::Atan => Shape::by_sign(range, rising(Convex), rising(Concave)),
+        Unary::Tanh | Unary::Atan | Unary::Erf => Shape::by_sign(range, rising(Convex), rising(Concave)),
         Unary::Acos => Shape::by_sign(range, falling(Convex), falling(Concave)),
         Unary::Tan if range.lower > -FRAC_PI_2 && range.upper < FRAC_PI_2 => {
             Shape::by_sign(range, rising(Concave), rising(Convex))

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::expression::operators::{Binary, Unary};
+use crate::math::special;
 
 /// Just above π and π/2, as the nearest numbers lie below.
 const HALF_TURN: f64 = PI.next_up();
@@ -172,6 +173,7 @@ impl Interval {
             Unary::Sinh => self.increasing(f64::sinh).keep_sign(self),
             Unary::Cosh => Interval { lower: 1.0, ..self.magnitude().increasing(f64::cosh) },
             Unary::Tanh => self.increasing(f64::tanh).keep_sign(self),
+            Unary::Erf => self.increasing(special::erf).keep_sign(self),
             // Its minimum is −0.1215.
             Unary::LnGamma => Interval { lower: -0.122, upper: f64::INFINITY },
         }

@@ -47,7 +47,7 @@ impl Slope {
         let within = |lower: f64, upper: f64| range.lower >= lower && range.upper <= upper;
         match op {
             Unary::Negate => Falling,
-            Unary::Exp | Unary::Atan | Unary::Sinh | Unary::Tanh => Rising,
+            Unary::Exp | Unary::Atan | Unary::Sinh | Unary::Tanh | Unary::Erf => Rising,
             Unary::Sqrt | Unary::Log | Unary::Log10 if range.is_non_negative() => Rising,
             Unary::Asin if within(-1.0, 1.0) => Rising,
             Unary::Acos if within(-1.0, 1.0) => Falling,

@@ -94,6 +94,7 @@ fn name(operation: Operation) -> &'static str {
             Unary::Sin | Unary::Cos | Unary::Tan => "trigonometric function",
             Unary::Sinh | Unary::Cosh | Unary::Tanh => "hyperbolic function",
             Unary::Atan => "arc tangent",
+            Unary::Erf => "error function",
             Unary::LnGamma => "logarithm of gamma",
         },
         Operation::Binary(Binary::Divide) => "quotient",

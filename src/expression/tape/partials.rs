@@ -81,6 +81,7 @@ fn unary_first(op: Unary, a: f64, v: f64) -> f64 {
         Unary::Tanh => a.cosh().powi(-2),
         Unary::Abs if a < 0.0 => -1.0,
         Unary::Abs => 1.0,
+        Unary::Erf => special::erf_slope(a),
         Unary::LnGamma => special::digamma(a),
     }
 }
@@ -101,6 +102,7 @@ fn unary_second(op: Unary, a: f64, v: f64) -> f64 {
             -2.0 * a * slope * slope
         }
         Unary::Tanh => -2.0 * v * a.cosh().powi(-2),
+        Unary::Erf => -2.0 * a * special::erf_slope(a),
         Unary::LnGamma => special::polygamma(1, a),
     }
 }

@@ -8,6 +8,7 @@ use super::tests::derivatives;
 use super::*;
 use crate::expression::graph::Node;
 use crate::expression::operators::{Binary, Unary};
+use crate::math::special;
 
 /// The same formula in hyper-dual numbers, and next to each value the sum of the magnitudes it was made of.
 fn hyper_dual(graph: &Graph, root: NodeId, x: &[HyperDual64]) -> (HyperDual64, f64) {
@@ -56,6 +57,11 @@ fn hyper_unary(op: Unary, a: HyperDual64) -> HyperDual64 {
         Unary::Sinh => a.sinh(),
         Unary::Cosh => a.cosh(),
         Unary::Tanh => a.tanh(),
+        Unary::Erf => {
+            let (slope, bend) = (special::erf_slope(a.re), -2.0 * a.re * special::erf_slope(a.re));
+            let mixed = slope * a.eps1eps2 + bend * a.eps1 * a.eps2;
+            HyperDual64::new(special::erf(a.re), slope * a.eps1, slope * a.eps2, mixed)
+        }
         Unary::LnGamma => unreachable!("drawn from the named functions"),
         Unary::Abs => {
             if a.re < 0.0 {
@@ -92,7 +98,7 @@ fn hyper_binary(op: Binary, a: HyperDual64, b: HyperDual64) -> HyperDual64 {
     }
 }
 
-const UNARY: [Unary; 12] = [
+const UNARY: [Unary; 13] = [
     Unary::Negate,
     Unary::Sqrt,
     Unary::Exp,
@@ -105,6 +111,7 @@ const UNARY: [Unary; 12] = [
     Unary::Sinh,
     Unary::Tanh,
     Unary::Abs,
+    Unary::Erf,
 ];
 const BINARY: [Binary; 8] =
     [Binary::Add, Binary::Subtract, Binary::Multiply, Binary::Divide, Binary::Power, Binary::Atan2, Binary::Min, Binary::Max];
@@ -117,9 +124,9 @@ fn random_formula(steps: &[(u8, u8, u8)], constant: f64) -> (Graph, NodeId) {
     for &(which, a, b) in steps {
         let pick = |index: u8| nodes[nodes.len() - 1 - usize::from(index) % nodes.len()];
         let (a, b) = (pick(a), pick(b));
-        nodes.push(match usize::from(which) % 20 {
-            unary @ 0..12 => graph.unary(UNARY[unary], a),
-            binary => graph.binary(BINARY[binary - 12], a, b),
+        nodes.push(match usize::from(which) % (UNARY.len() + BINARY.len()) {
+            unary if unary < UNARY.len() => graph.unary(UNARY[unary], a),
+            binary => graph.binary(BINARY[binary - UNARY.len()], a, b),
         });
     }
     let root = nodes[nodes.len() - 1];

@@ -1,19 +1,19 @@
 //! The objective; and what can be said of a file whose tables could not be read.
 
 use super::Assembly;
+use crate::expression::ast::Requirement;
+use crate::expression::operators::Comparison;
 use crate::expression::parse::{parse, parse_requirement};
 use crate::input::declaration::Declaration;
-use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::Sense;
+use crate::problem::mistake_code::MistakeCode;
 
 impl Assembly<'_> {
     /// Mistakes of grammar, without looking up any name.
     pub(super) fn grammar(&mut self, declared: &Declaration) {
-        for (_, scalar) in &declared.definitions {
-            if let Scalar::Expression(written) = scalar {
-                self.parsed(written, parse);
-            }
+        for written in declared.definitions.iter().flat_map(|(_, entry)| entry.texts()) {
+            self.parsed(written, parse);
         }
         if let Some((_, Some(written))) = &declared.objective {
             self.parsed(written, parse);
@@ -29,9 +29,12 @@ impl Assembly<'_> {
             Some((sense, Some(written))) => (*sense, written.clone()),
             Some((_, None)) => return,
             None if self.problem.ribs.names.is_empty() => {
-                if declared.ribs.is_empty() && declared.rib_table.is_none() {
-                    let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised";
-                    self.findings.mistake(Place::Whole, "there is no objective", help);
+                if states_equations(declared) {
+                    self.problem.objective_text = "none: a system of equations".into();
+                } else if declared.ribs.is_empty() && declared.rib_table.is_none() {
+                    let help = "add minimize = \"…\" or maximize = \"…\" at the top, or [[ribs]] whose volume is minimised; \
+                        equations (==) alone need none";
+                    self.findings.mistake(MistakeCode::Objective, Place::Whole, "there is no objective", help);
                 }
                 return;
             }
@@ -43,4 +46,12 @@ impl Assembly<'_> {
         self.problem.objective = formula;
         self.problem.objective_text = written.text;
     }
+}
+
+/// Whether some constraint is an equation: then a point that meets all of them is asked for.
+fn states_equations(declared: &Declaration) -> bool {
+    let is_equation = |written: &Written| {
+        matches!(parse_requirement(&written.text), Ok(Requirement::Two { comparison: Comparison::Equal, .. }))
+    };
+    declared.constraints.iter().filter_map(|entry| entry.require.as_ref()).any(is_equation)
 }

@@ -14,6 +14,7 @@ use crate::expression::ast::Collection;
 use crate::input::declaration::Declaration;
 use crate::input::source::Place;
 use crate::input::table::Table;
+use crate::problem::mistake_code::MistakeCode;
 use crate::units::{Dimension, System};
 use walk::Walk;
 
@@ -72,7 +73,7 @@ impl Assembly<'_> {
         if self.quantities {
             self.say_mass(declared);
             for one in found {
-                self.findings.mistake(one.place, one.message, one.help);
+                self.findings.mistake(MistakeCode::Units, one.place, one.message, one.help);
             }
             for one in odd {
                 self.findings.warning(one.place, one.message, one.help);
@@ -89,6 +90,6 @@ impl Assembly<'_> {
         let Some((given, follows)) = self.units.mass_differs() else { return };
         let place = declared.units.iter().find(|(key, _)| key == "mass").map_or(Place::Whole, |(_, label)| label.place);
         let message = format!("with these units of length, force and time a mass is in {follows}, not in {given}");
-        self.findings.mistake(place, message, "leave `mass` out, or choose another unit of force");
+        self.findings.mistake(MistakeCode::Units, place, message, "leave `mass` out, or choose another unit of force");
     }
 }

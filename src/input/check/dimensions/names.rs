@@ -6,8 +6,8 @@ use crate::input::source::Written;
 use crate::problem::names::Entity;
 use crate::problem::sections_form;
 use crate::sections;
-use crate::units::Dimension;
 use crate::units::inference::Form;
+use crate::units::{Dimension, Ratio};
 
 /// Exponent of length of a section's property by its name; `None` where that depends on the kind or on the user's points.
 fn property(name: &str, kind: Option<&str>) -> Option<i64> {
@@ -178,6 +178,11 @@ impl Walk<'_, '_> {
                     _ => None,
                 });
                 return self.unknown(format!("name: {}", controls.unwrap_or_default()));
+            }
+            "quadratic" => {
+                let forms: Vec<Form> = arguments.iter().map(|part| self.expression(part, written, scope)).collect();
+                let [matrix, vector] = &forms[..] else { return self.inference.unknown() };
+                return matrix.times(vector, Ratio::whole(2)).unwrap_or_else(|| self.inference.unknown());
             }
             _ => return self.inference.unknown(),
         };

@@ -6,7 +6,7 @@ use crate::expression::ast::Collection;
 use crate::expression::parse::{parse, parse_condition, parse_range, parse_requirement};
 use crate::input::declaration::structure::{LoadEntry, StructureEntries, Vector};
 use crate::input::declaration::{
-    ConstraintEntry, Declaration, DimensionEntry, ListEntry, Listing, Name, Numbers, Range, SectionEntry,
+    ConstraintEntry, Declaration, DefinitionEntry, DimensionEntry, ListEntry, Listing, Name, Numbers, Range, SectionEntry,
 };
 use crate::input::fields::Scalar;
 use crate::input::source::Written;
@@ -82,10 +82,20 @@ impl Walk<'_, '_> {
                 self.numbers(numbers, &own, &format!("`{}`", entry.name.text));
             }
         }
-        for (name, scalar) in &declared.definitions {
+        for (name, entry) in &declared.definitions {
             let own = self.unknown(format!("name: {}", name.text));
-            self.scalar(Some(scalar), &own, &format!("`{}`", name.text));
+            self.definition(entry, &own, &format!("`{}`", name.text));
         }
+    }
+
+    fn definition(&mut self, entry: &DefinitionEntry, own: &Form, what: &str) {
+        if let DefinitionEntry::Sequence(sequence) = entry
+            && let Ok((index, _)) = parse_range(&sequence.range.text)
+        {
+            self.indices.push(index);
+        }
+        entry.texts().for_each(|written| self.written(written, Scope::default(), own, what));
+        self.indices.clear();
     }
 
     fn list(&mut self, list: Option<&ListEntry>, needed: &Form, what: &str) {

@@ -168,7 +168,7 @@ impl<'a, 's> Walk<'a, 's> {
                 unit.dimension().into()
             }
             AstKind::Name(parts) => self.named(parts, scope),
-            AstKind::Index(base, _) => self.expression(base, written, scope),
+            AstKind::Index(base, _) | AstKind::Slice(base, _) => self.expression(base, written, scope),
             AstKind::Unary(op, operand) => self.unary(*op, operand, written, scope),
             AstKind::Binary(op, left, right) => self.binary(*op, [left, right], ast.span, written, scope),
             AstKind::Fold(_, list) => {

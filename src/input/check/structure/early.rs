@@ -3,7 +3,7 @@
 use super::super::Assembly;
 use crate::expression::ast::Ast;
 use crate::expression::parse::parse;
-use crate::input::declaration::Declaration;
+use crate::input::declaration::{Declaration, DefinitionEntry};
 use crate::input::fields::Scalar;
 use crate::problem::Formula;
 use crate::problem::mentions::mentions;
@@ -22,9 +22,9 @@ impl Assembly<'_> {
         let trees: Vec<Option<Ast>> = declared
             .definitions
             .iter()
-            .map(|(_, scalar)| match scalar {
-                Scalar::Number(..) => None,
-                Scalar::Expression(written) => parse(&written.text).ok(),
+            .map(|(_, entry)| match entry {
+                DefinitionEntry::One(Scalar::Expression(written)) => parse(&written.text).ok(),
+                DefinitionEntry::One(Scalar::Number(..)) | DefinitionEntry::Sequence(_) => None,
             })
             .collect();
         self.definitions = vec![None; trees.len()];
@@ -47,8 +47,8 @@ impl Assembly<'_> {
         names.filter_map(|entity| if let Entity::Definition(at) = entity { Some(at) } else { None }).collect()
     }
 
-    fn early_value(&self, scalar: &Scalar, tree: Option<&Ast>) -> Option<Value> {
-        if let Scalar::Number(value, _) = scalar {
+    fn early_value(&self, entry: &DefinitionEntry, tree: Option<&Ast>) -> Option<Value> {
+        if let DefinitionEntry::One(Scalar::Number(value, _)) = entry {
             return Some(Value::Scalar(Formula::Constant(*value)));
         }
         Resolver::new(self.world(Stage::Variables), None, &mut Report::default()).value(tree?)
