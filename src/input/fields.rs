@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::problem::mistake_code::MistakeCode;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -79,7 +80,12 @@ impl<'a> Fields<'a> {
     pub fn require(&mut self, key: &'static str, what: &str, reader: &mut Reader) -> Option<Field<'a>> {
         let field = self.take(key);
         if field.is_none() {
-            reader.findings.mistake(self.place, format!("{what} needs `{key}`"), format!("add `{key} = …`"));
+            reader.findings.mistake(
+                MistakeCode::MissingKey,
+                self.place,
+                format!("{what} needs `{key}`"),
+                format!("add `{key} = …`"),
+            );
         }
         field
     }
@@ -94,7 +100,7 @@ impl<'a> Fields<'a> {
         for field in &self.fields {
             let help = did_you_mean(field.key, self.known.iter().copied());
             let help = help.unwrap_or_else(|| format!("known here: {}", self.known.join(", ")));
-            reader.findings.mistake(field.key_place, format!("unknown key `{}`", field.key), help);
+            reader.findings.mistake(MistakeCode::UnknownKey, field.key_place, format!("unknown key `{}`", field.key), help);
         }
     }
 }
@@ -148,7 +154,12 @@ impl<'a> Field<'a> {
     pub fn number(&self, reader: &mut Reader) -> Option<f64> {
         match self.as_number() {
             Some(number) if number.is_nan() => {
-                reader.findings.mistake(self.place, format!("`{}` is no number", self.key), "give a number");
+                reader.findings.mistake(
+                    MistakeCode::NoNumber,
+                    self.place,
+                    format!("`{}` is no number", self.key),
+                    "give a number",
+                );
                 None
             }
             Some(number) if number.is_infinite() && !(reader.bounds && self.says_infinity()) => {
@@ -159,7 +170,7 @@ impl<'a> Field<'a> {
                         "numbers reach to about 1.8e308; change the units, or leave an open bound out",
                     ),
                 };
-                reader.findings.mistake(self.place, format!("`{}` {what}", self.key), help);
+                reader.findings.mistake(MistakeCode::NoNumber, self.place, format!("`{}` {what}", self.key), help);
                 None
             }
             Some(number) => Some(number),
@@ -208,11 +219,21 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// Whether it is a table.
+    pub fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
+    }
+
     /// The tables of `[[key]]`.
     pub fn tables(&self, reader: &mut Reader) -> Vec<Fields<'a>> {
         let Some(items) = self.items() else {
             let message = format!("`{}` is a list of tables", self.key);
-            reader.findings.mistake(self.key_place, message, format!("write [[{}]] with two brackets", self.key));
+            reader.findings.mistake(
+                MistakeCode::WrongType,
+                self.key_place,
+                message,
+                format!("write [[{}]] with two brackets", self.key),
+            );
             return Vec::new();
         };
         items.iter().filter_map(|item| item.table_at(item.place, reader)).collect()
@@ -234,7 +255,12 @@ impl<'a> Field<'a> {
             DeValue::Array(_) => "an array",
             DeValue::Table(_) => "a table",
         };
-        reader.findings.mistake(self.place, format!("`{}` is {found}", self.key), format!("expected {what}"));
+        reader.findings.mistake(
+            MistakeCode::WrongType,
+            self.place,
+            format!("`{}` is {found}", self.key),
+            format!("expected {what}"),
+        );
         None
     }
 }

@@ -5,11 +5,14 @@ use std::path::PathBuf;
 use super::mistake::{Mistake, Mistakes, SHOWN};
 use super::source::{Place, Source};
 use super::table_lines;
+use crate::problem::mistake_code::MistakeCode;
 
 /// Findings kept; a file with more is beyond repair, and they are only counted.
 const KEPT: usize = 1000;
 
 struct Finding {
+    /// Of a mistake.
+    code: Option<MistakeCode>,
     place: Place,
     message: String,
     help: Option<String>,
@@ -29,9 +32,9 @@ pub(super) struct Findings {
 
 impl Findings {
     /// Something wrong.
-    pub fn mistake(&mut self, place: Place, message: impl Into<String>, help: impl Into<Help>) {
+    pub fn mistake(&mut self, code: MistakeCode, place: Place, message: impl Into<String>, help: impl Into<Help>) {
         if self.mistakes.len() < KEPT {
-            self.mistakes.push(Finding { place, message: message.into(), help: help.into().0 });
+            self.mistakes.push(Finding { code: Some(code), place, message: message.into(), help: help.into().0 });
         } else {
             self.uncounted += 1;
         }
@@ -40,7 +43,7 @@ impl Findings {
     /// Something the user should hear of.
     pub fn warning(&mut self, place: Place, message: impl Into<String>, help: impl Into<Help>) {
         if self.warnings.len() < KEPT {
-            self.warnings.push(Finding { place, message: message.into(), help: help.into().0 });
+            self.warnings.push(Finding { code: None, place, message: message.into(), help: help.into().0 });
         }
     }
 
@@ -88,23 +91,23 @@ impl Findings {
     }
 
     fn place(&self, finding: &Finding, source: &Source, arguments: &[String], rows: &[table_lines::Lines]) -> Mistake {
-        let (message, help) = (finding.message.clone(), finding.help.clone());
+        let (code, message, help) = (finding.code, finding.message.clone(), finding.help.clone());
         match finding.place {
-            Place::File { start, end } => source.mistake(start as usize..end as usize, message, help),
+            Place::File { start, end } => source.mistake(code, start as usize..end as usize, message, help),
             Place::Argument { number, start, end } => {
                 let text = arguments.get(number as usize).cloned().unwrap_or_default();
                 let argument = Source::new("--set", text);
-                argument.mistake(start as usize..end as usize, message, help)
+                argument.mistake(code, start as usize..end as usize, message, help)
             }
             Place::Row { table, line, field } => {
                 let text = rows.get(table as usize).and_then(|lines| lines.get(&(line as usize))).cloned().unwrap_or_default();
                 let separator = self.separators.get(table as usize).copied().unwrap_or(b',');
                 let caret = table_lines::field(&text, char::from(separator), field);
                 let file = self.tables.get(table as usize).map(|(_, name)| name.clone()).unwrap_or_default();
-                Mistake { file, line: line as usize, column: caret.start + 1, text, caret, message, help }
+                Mistake { code, file, line: line as usize, column: caret.start + 1, text, caret, message, help }
             }
             Place::Whole => {
-                Mistake { file: source.name.clone(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help }
+                Mistake { code, file: source.name.clone(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help }
             }
         }
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::mistake::{Mistake, Mistakes};
 use super::source::Source;
 use crate::files;
+use crate::problem::mistake_code::MistakeCode;
 
 /// The largest problem file in bytes; more belongs into tables.
 const LARGEST: u64 = 64 << 20;
@@ -52,7 +53,16 @@ fn unreadable(name: &str, error: &io::Error) -> Mistakes {
 
 fn refuse(name: &str, message: String, help: &str) -> Mistakes {
     let help = Some(help.to_owned());
-    let mistake = Mistake { file: name.to_owned(), line: 0, column: 0, text: String::new(), caret: 0..0, message, help };
+    let mistake = Mistake {
+        code: Some(MistakeCode::File),
+        file: name.to_owned(),
+        line: 0,
+        column: 0,
+        text: String::new(),
+        caret: 0..0,
+        message,
+        help,
+    };
     Mistakes { list: vec![mistake], more: 0 }
 }
 
@@ -61,5 +71,5 @@ fn not_text(name: &str, bytes: &[u8], valid: usize) -> Mistakes {
     let source = Source::new(name, String::from_utf8_lossy(bytes).into_owned());
     let message = format!("{name} is not UTF-8 text: byte {:#04x} at position {valid}", bytes.get(valid).unwrap_or(&0));
     let help = Some("save the file as UTF-8".to_owned());
-    Mistakes { list: vec![source.mistake(valid..valid + 1, message, help)], more: 0 }
+    Mistakes { list: vec![source.mistake(Some(MistakeCode::File), valid..valid + 1, message, help)], more: 0 }
 }

@@ -3,12 +3,16 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::problem::mistake_code::MistakeCode;
+
 /// Mistakes shown at the most; the rest is counted.
 pub const SHOWN: usize = 100;
 
 /// One mistake (or one warning) at one place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mistake {
+    /// What kind of mistake it is; warnings have none.
+    pub code: Option<MistakeCode>,
     /// The file as the user named it, or `--set`.
     pub file: String,
     /// Line, counted from 1; 0 where the file as a whole is meant.
@@ -53,16 +57,17 @@ impl fmt::Display for Mistakes {
 ///
 /// ```
 /// let mistake = ribopt::input::Mistake {
-///     file: "rib.toml".into(), line: 3, column: 9, text: "lower = nan".into(), caret: 8..11,
+///     code: Some(ribopt::problem::mistake_code::MistakeCode::NoNumber), file: "rib.toml".into(), line: 3, column: 9, text: "lower = nan".into(), caret: 8..11,
 ///     message: "`lower` is no number".into(), help: Some("give a number".into()),
 /// };
-/// let expected = "mistake: `lower` is no number\n --> rib.toml:3:9\n  |\n3 | lower = nan\n  |         ^^^\n  = help: give a number\n";
+/// let expected = "mistake[no-number]: `lower` is no number\n --> rib.toml:3:9\n  |\n3 | lower = nan\n  |         ^^^\n  = help: give a number\n";
 /// assert_eq!(ribopt::input::render(&mistake, "mistake"), expected);
 /// ```
 pub fn render(mistake: &Mistake, label: &str) -> String {
     let number = mistake.line.to_string();
     let margin = if mistake.line == 0 { 1 } else { number.len() };
-    let mut out = format!("{label}: {}\n", mistake.message);
+    let kind = mistake.code.map_or(String::new(), |code| format!("[{code}]"));
+    let mut out = format!("{label}{kind}: {}\n", mistake.message);
     if mistake.line == 0 {
         out += &format!("{:margin$}--> {}\n", "", mistake.file);
     } else {

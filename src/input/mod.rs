@@ -7,6 +7,7 @@ mod check;
 mod codes;
 mod declaration;
 mod example;
+mod explain;
 mod fields;
 mod findings;
 mod load;
@@ -20,12 +21,14 @@ mod table_lines;
 
 use std::path::{Path, PathBuf};
 
+use crate::problem::mistake_code::MistakeCode;
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::problem::Problem;
 pub use check::{Dimensions, Measured};
 pub use example::{example, examples};
+pub use explain::explain;
 use fields::Reader;
 use findings::Findings;
 pub use mistake::{Mistake, Mistakes, render};
@@ -143,7 +146,7 @@ fn syntax(source: &Source, errors: &[toml::de::Error], findings: &mut Findings) 
         if !seen.contains(&line) {
             seen.push(line);
             let help = error.message().contains("duplicate key").then(|| earlier(source, span(error)));
-            findings.mistake(Place::file(span(error)), error.message(), help.flatten());
+            findings.mistake(MistakeCode::Toml, Place::file(span(error)), error.message(), help.flatten());
         }
     }
 }

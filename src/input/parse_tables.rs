@@ -6,6 +6,7 @@ mod lists;
 mod loads;
 mod member;
 mod profiles;
+mod sequences;
 mod settings;
 mod shapes;
 mod structure;
@@ -19,6 +20,7 @@ use super::declaration::{Declaration, Name, Numbers, Range, VariableEntry};
 use super::fields::{Field, Fields, Reader, Scalar};
 use super::source::Place;
 use crate::problem::Sense;
+use crate::problem::mistake_code::MistakeCode;
 use crate::units::System;
 
 /// The whole file.
@@ -46,7 +48,7 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
         declared.variables.push(controls);
     }
     for field in named(&mut top, "definitions", reader) {
-        declared.definitions.extend(field.scalar(reader).map(|value| (name(&field), value)));
+        declared.definitions.extend(sequences::definition(&field, reader).map(|entry| (name(&field), entry)));
     }
     for field in named(&mut top, "catalogues", reader) {
         declared.catalogues.extend(lists::catalogue(&field, reader));
@@ -94,7 +96,7 @@ fn objective(top: &mut Fields, declared: &mut Declaration, reader: &mut Reader) 
     let (minimize, maximize) = (top.take("minimize"), top.take("maximize"));
     if let (Some(_), Some(second)) = (&minimize, &maximize) {
         let help = "keep one of `minimize` and `maximize`";
-        reader.findings.mistake(second.key_place, "two objectives", help);
+        reader.findings.mistake(MistakeCode::Objective, second.key_place, "two objectives", help);
     }
     let sense = if minimize.is_some() { Sense::Minimize } else { Sense::Maximize };
     declared.objective = minimize.or(maximize).map(|field| (sense, field.text(reader)));
@@ -103,12 +105,26 @@ fn objective(top: &mut Fields, declared: &mut Declaration, reader: &mut Reader) 
 fn numbers(field: &Field, reader: &mut Reader) -> Option<Numbers> {
     match field.items() {
         Some(items) => {
+            let items = rows(items, field, reader)?;
             let count = items.len();
             let values: Vec<Scalar> = items.iter().filter_map(|item| item.scalar(reader)).collect();
             (values.len() == count).then_some(Numbers::Many(values, field.place))
         }
         None => field.scalar(reader).map(Numbers::One),
     }
+}
+
+/// The numbers of a matrix, row by row; other arrays as they are.
+fn rows<'a>(items: Vec<Field<'a>>, field: &Field, reader: &mut Reader) -> Option<Vec<Field<'a>>> {
+    let Some(rows) = items.iter().map(Field::items).collect::<Option<Vec<_>>>() else { return Some(items) };
+    if let [first, rest @ ..] = &rows[..]
+        && let Some(other) = rest.iter().find(|row| row.len() != first.len())
+    {
+        let message = format!("rows of {} and of {} numbers", first.len(), other.len());
+        reader.findings.mistake(MistakeCode::ArraySize, field.place, message, "the rows of a matrix are of one length");
+        return None;
+    }
+    Some(rows.into_iter().flatten().collect())
 }
 
 fn variable(field: &Field, reader: &mut Reader) -> Option<VariableEntry> {

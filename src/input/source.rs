@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::mistake::Mistake;
+use crate::problem::mistake_code::MistakeCode;
 
 /// Where something was written. Small, for a million ribs keep theirs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,7 +44,7 @@ impl Source {
     }
 
     /// A mistake at a range of bytes; the range is cut at the end of its first line.
-    pub fn mistake(&self, range: Range<usize>, message: String, help: Option<String>) -> Mistake {
+    pub fn mistake(&self, code: Option<MistakeCode>, range: Range<usize>, message: String, help: Option<String>) -> Mistake {
         let start = self.boundary(range.start);
         let line_start = self.text[..start].rfind('\n').map_or(0, |at| at + 1);
         let line_end = self.text[start..].find('\n').map_or(self.text.len(), |at| start + at);
@@ -52,6 +53,7 @@ impl Source {
         let column = self.text[line_start..start].chars().count();
         let width = self.text[start..end].chars().count();
         Mistake {
+            code,
             file: self.name.clone(),
             line: self.line(start),
             column: column + 1,

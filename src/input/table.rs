@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
+use crate::problem::mistake_code::MistakeCode;
 use csv::StringRecord;
 use sha2::{Digest, Sha256};
 
@@ -96,7 +97,7 @@ impl Tables<'_> {
             Err(error) => {
                 let (cause, _) = reason(&error);
                 let message = format!("cannot read the table {}: {cause}", path.display());
-                findings.mistake(written.place, message, "the path is taken from the problem file's folder");
+                findings.mistake(MistakeCode::File, written.place, message, "the path is taken from the problem file's folder");
                 return None;
             }
         };
@@ -124,11 +125,11 @@ impl Table<'_> {
         match self.reader.read_record(&mut self.record) {
             Ok(true) => {}
             Ok(false) => {
-                findings.mistake(place, "the table is empty", "its first line names the columns");
+                findings.mistake(MistakeCode::File, place, "the table is empty", "its first line names the columns");
                 return None;
             }
             Err(error) => {
-                findings.mistake(place, said(&error), "save the table as UTF-8 text");
+                findings.mistake(MistakeCode::File, place, said(&error), "save the table as UTF-8 text");
                 return None;
             }
         }
@@ -137,9 +138,14 @@ impl Table<'_> {
         for (at, name) in self.headers.iter().enumerate() {
             let place = self.place(1, at as u16);
             if name.is_empty() {
-                findings.mistake(place, "a column without a name", "name it or remove it");
+                findings.mistake(MistakeCode::ReservedName, place, "a column without a name", "name it or remove it");
             } else if self.headers[..at].contains(name) {
-                findings.mistake(place, format!("two columns are called `{name}`"), "keep one of them");
+                findings.mistake(
+                    MistakeCode::DuplicateName,
+                    place,
+                    format!("two columns are called `{name}`"),
+                    "keep one of them",
+                );
             }
         }
         Some(())
@@ -158,6 +164,7 @@ impl Table<'_> {
                         self.ragged = true;
                         let message = "the column has a unit, and this is no number";
                         findings.mistake(
+                            MistakeCode::Units,
                             self.place(line, at),
                             message,
                             "leave the unit out of the header and write it into cells",
@@ -167,11 +174,16 @@ impl Table<'_> {
                 Ok(true) => {
                     self.ragged = true;
                     let (message, help) = self.misfit();
-                    findings.mistake(self.place(line, Place::WHOLE_ROW), message, help);
+                    findings.mistake(MistakeCode::Table, self.place(line, Place::WHOLE_ROW), message, help);
                 }
                 Err(error) => {
                     self.ragged = true;
-                    findings.mistake(self.place(line, Place::WHOLE_ROW), said(&error), "save the table as UTF-8 text");
+                    findings.mistake(
+                        MistakeCode::File,
+                        self.place(line, Place::WHOLE_ROW),
+                        said(&error),
+                        "save the table as UTF-8 text",
+                    );
                     if !matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) {
                         return None;
                     }

@@ -6,6 +6,7 @@ pub mod affine;
 pub mod axial;
 pub mod cells;
 pub mod checks;
+
 mod collections;
 mod constraint;
 mod data;
@@ -18,6 +19,7 @@ mod item_scope;
 pub mod items;
 pub mod kinks;
 pub mod mentions;
+pub mod mistake_code;
 pub mod modes;
 pub mod names;
 pub(crate) mod nearest;

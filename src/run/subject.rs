@@ -11,6 +11,7 @@ use crate::input::{self, Dimensions, Progress};
 use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Constraint, Formula, Problem, Scope, Settings};
 use crate::report::result::Mistake;
 use crate::report::{self, About, Volumes};
@@ -238,6 +239,7 @@ fn refused(mistakes: input::Mistakes) -> RunError {
 fn reported(mistake: &input::Mistake) -> Mistake {
     let place = |number: usize| (number > 0).then_some(number);
     Mistake {
+        code: mistake.code.map(MistakeCode::name),
         file: Some(mistake.file.clone()),
         line: place(mistake.line),
         column: place(mistake.column),

@@ -9,6 +9,7 @@ use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::Formula;
 use crate::problem::mentions::mentions;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::order::order;
 use crate::problem::resolve::{ItemScope, Report, Resolver, Stage, Value};
@@ -21,7 +22,7 @@ impl Assembly<'_> {
             Err(mistakes) => {
                 for mistake in mistakes {
                     let place = written.part(mistake.span.start, mistake.span.end);
-                    self.findings.mistake(place, mistake.message, mistake.help);
+                    self.findings.mistake(MistakeCode::Expression, place, mistake.message, mistake.help);
                 }
                 None
             }
@@ -38,8 +39,8 @@ impl Assembly<'_> {
     ) -> Option<T> {
         let mut report = Report::default();
         let found = resolve(&mut Resolver::new(self.world(stage), scope, &mut report));
-        for remark in report.mistakes {
-            self.findings.mistake(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
+        for (code, remark) in report.mistakes {
+            self.findings.mistake(code, written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
         for remark in report.warnings.into_iter().filter(|_| !self.quiet) {
             self.findings.warning(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
@@ -141,6 +142,11 @@ impl Assembly<'_> {
         names.push(first.clone());
         let path: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
         let message = format!("`{first}` depends on itself");
-        self.findings.mistake(place, message, format!("{}: one of these must not need the next", path.join(" → ")));
+        self.findings.mistake(
+            MistakeCode::Circle,
+            place,
+            message,
+            format!("{}: one of these must not need the next", path.join(" → ")),
+        );
     }
 }

@@ -10,6 +10,7 @@ use crate::expression::parse::{parse_condition, parse_range};
 use crate::input::declaration::{ConstraintEntry, Name};
 use crate::input::source::{Place, Written};
 use crate::problem::glob::matches;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::resolve::{Chosen, ItemFilter, ItemScope, Stage};
 use crate::problem::{Cells, Constraint, Formula, Limit, Scope};
@@ -30,7 +31,7 @@ impl Assembly<'_> {
         let place = entry.name.as_ref().map_or(entry.place, |name: &Name| name.place);
         if let Some(first) = names.insert(name.to_owned(), place) {
             let help = format!("the first is declared at {}; rename one of them", self.spoken(first));
-            self.findings.mistake(place, format!("two constraints are called `{name}`"), help);
+            self.findings.mistake(MistakeCode::DuplicateName, place, format!("two constraints are called `{name}`"), help);
         }
     }
 
@@ -117,7 +118,7 @@ impl Assembly<'_> {
                 let message = format!("the ribs of line `{label}` do not make up one open line");
                 let help =
                     "sag is taken from the chord of a line's ends: a ring or a branch has none; choose the ribs by `where`";
-                self.findings.mistake(entry.place, message, help);
+                self.findings.mistake(MistakeCode::Group, entry.place, message, help);
                 continue;
             };
             let listed = Arc::new(ribs.clone());
@@ -187,7 +188,7 @@ impl Assembly<'_> {
         match filter.choose(&self.problem, scope) {
             Ok(members) => Some(members),
             Err(message) => {
-                self.findings.mistake(written.place, message, ItemFilter::REMEDY);
+                self.findings.mistake(MistakeCode::EmptyCell, written.place, message, ItemFilter::REMEDY);
                 None
             }
         }
@@ -200,7 +201,7 @@ impl Assembly<'_> {
         let Some(at) = columns.iter().position(|column| column.name == by.text) else {
             let help = did_you_mean(&by.text, columns.iter().map(|column| &*column.name));
             let help = help.unwrap_or_else(|| "`by` names a datum of the items".into());
-            self.findings.mistake(by.place, format!("there is no datum `{}`", by.text), help);
+            self.findings.mistake(MistakeCode::UnknownItem, by.place, format!("there is no datum `{}`", by.text), help);
             return None;
         };
         let label = |index: u32| match &columns[at].cells {
@@ -245,6 +246,11 @@ impl Assembly<'_> {
         let name = self.problem.item_name(collection, item);
         let more = if count > 1 { format!(" (and of {} more)", count - 1) } else { String::new() };
         let message = format!("`{column}` of {word} `{name}`{more} is empty, but {user} uses it");
-        self.findings.mistake(place, message, "fill the cell, or choose among the items with `only` or `where`");
+        self.findings.mistake(
+            MistakeCode::EmptyCell,
+            place,
+            message,
+            "fill the cell, or choose among the items with `only` or `where`",
+        );
     }
 }

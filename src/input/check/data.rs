@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::input::declaration::Datum;
 use crate::input::findings::Findings;
 use crate::input::table::Row;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Cells, Column};
 
 /// No label in this cell.
@@ -106,7 +107,7 @@ impl Growing {
 /// The mistake of a number that is too large for one, or infinite where no bound stands.
 pub(super) fn infinite(row: &Row<'_>, at: usize, findings: &mut Findings) {
     let help = "numbers reach to about 1.8e308; only bounds may be inf, or left empty";
-    findings.mistake(row.place(at), format!("`{}` is not finite", row.field(at)), help);
+    findings.mistake(MistakeCode::NoNumber, row.place(at), format!("`{}` is not finite", row.field(at)), help);
 }
 
 /// Puts a cell into a data column: a number, a text, or nothing.
@@ -115,7 +116,9 @@ pub(super) fn put(data: &mut DataColumns, findings: &mut Findings, row: &Row<'_>
     match row.number(at) {
         Some(value) if value.is_infinite() => infinite(row, at, findings),
         Some(value) => data.number(column, item, value),
-        None if text.parse::<f64>().is_ok() => findings.mistake(row.place(at), "this is no number", "leave the cell empty"),
+        None if text.parse::<f64>().is_ok() => {
+            findings.mistake(MistakeCode::NoNumber, row.place(at), "this is no number", "leave the cell empty")
+        }
         None if text.is_empty() => {}
         None => data.text(column, item, text),
     }

@@ -6,6 +6,7 @@ use super::Assembly;
 use crate::problem::affine::Affine;
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::existence::doubts;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Dimension, sections_form};
 use crate::sections;
 
@@ -26,7 +27,12 @@ impl Assembly<'_> {
             let section = &self.problem.sections.names[doubt.section as usize];
             let message = format!("`{}` of section `{section}` cannot be positive within its bounds", doubt.name);
             let place = self.section_places[doubt.section as usize];
-            self.findings.mistake(place, message, "widen the bounds of the dimensions it follows from");
+            self.findings.mistake(
+                MistakeCode::ImpossibleSection,
+                place,
+                message,
+                "widen the bounds of the dimensions it follows from",
+            );
         }
         for ((_, name), sections) in weak {
             let section = &self.problem.sections.names[sections[0] as usize];
@@ -56,7 +62,7 @@ impl Assembly<'_> {
             let (section, place) = (&self.problem.sections.names[s as usize], self.section_places[s as usize]);
             let help = "draw it without crossings, or give thinner walls: `clear` must stay positive";
             match at {
-                0 => self.findings.mistake(place, format!("section `{section}`: {reason}"), help),
+                0 => self.findings.mistake(MistakeCode::ImpossibleSection, place, format!("section `{section}`: {reason}"), help),
                 1 => self.findings.warning(place, format!("section `{section}` at its start: {reason}"), help),
                 _ => self.findings.warning(place, format!("section `{section}` at its upper bounds: {reason}"), help),
             }

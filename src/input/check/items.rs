@@ -8,6 +8,7 @@ use super::listing::Listing;
 use super::outlines::Points;
 use crate::input::declaration::{Declaration, DimensionEntry, Name, Range, SectionEntry};
 use crate::input::source::{Place, Written};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Dimension, Origin};
 use crate::sections::{self, Form, Kind};
@@ -51,7 +52,12 @@ impl Assembly<'_> {
             return;
         }
         if let Some(from) = &entry.from {
-            self.findings.mistake(from.place, "`from` belongs to sections of kind \"catalogue\"", "leave it out");
+            self.findings.mistake(
+                MistakeCode::UnknownKey,
+                from.place,
+                "`from` belongs to sections of kind \"catalogue\"",
+                "leave it out",
+            );
         }
         let given: Vec<Given> = entry.dimensions.iter().map(|(name, value)| self.given(name, value)).collect();
         let kind = entry.kind.as_ref().and_then(|written| self.kind(&written.text, written.place));
@@ -60,7 +66,7 @@ impl Assembly<'_> {
         for (name, datum) in &entry.data {
             if kind.is_some_and(|kind| kind.properties().contains(&name.text.as_str())) {
                 let message = format!("`{}` is a property of this kind of section already", name.text);
-                self.findings.mistake(name.place, message, "choose another name for the datum");
+                self.findings.mistake(MistakeCode::ReservedName, name.place, message, "choose another name for the datum");
                 continue;
             }
             self.section_data.put(&name.text, s as usize, datum);
@@ -87,7 +93,7 @@ impl Assembly<'_> {
             let names = || sections::KINDS.iter().map(|kind| kind.name());
             let help = did_you_mean(name, names());
             let help = help.unwrap_or_else(|| format!("known: {}", names().collect::<Vec<_>>().join(", ")));
-            self.findings.mistake(place, format!("unknown kind of section `{name}`"), help);
+            self.findings.mistake(MistakeCode::UnknownChoice, place, format!("unknown kind of section `{name}`"), help);
         }
         found
     }
@@ -162,7 +168,7 @@ impl Assembly<'_> {
     pub(super) fn positive(&mut self, name: &str, value: f64, place: Place) {
         if value <= 0.0 || value == f64::INFINITY {
             let message = format!("dimension `{name}` cannot be {value}");
-            self.findings.mistake(place, message, "expected a positive number");
+            self.findings.mistake(MistakeCode::OutOfRange, place, message, "expected a positive number");
         }
     }
 
@@ -192,7 +198,7 @@ impl Assembly<'_> {
         for one in &unknown {
             let help = did_you_mean(one.name, known.iter().copied().chain(["data", "kind"]));
             let help = help.unwrap_or_else(|| format!("{} knows: {}", kind.name(), shown(&known)));
-            self.findings.mistake(one.place, format!("unknown dimension `{}`", one.name), help);
+            self.findings.mistake(MistakeCode::UnknownKey, one.place, format!("unknown dimension `{}`", one.name), help);
         }
         if unknown.is_empty() {
             self.misfit(name, kind, given);
@@ -230,7 +236,7 @@ impl Assembly<'_> {
                 (surplus.map_or(name.place, |one| one.place), message)
             }
         };
-        self.findings.mistake(place, message, help);
+        self.findings.mistake(MistakeCode::Dimensions, place, message, help);
     }
 
     /// Closes the data columns.

@@ -1,15 +1,16 @@
 //! Definitions and computed dimensions: they need one another, in any order but not in circles.
 
 use super::Assembly;
+use super::sequences::{DEEPEST, together};
 use crate::expression::ast::{Ast, Collection};
 use crate::expression::parse::parse;
-use crate::input::declaration::Name;
+use crate::input::declaration::{DefinitionEntry, Name};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::mentions::{Mention, mentions};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
-use crate::problem::order::order;
 use crate::problem::resolve::{ItemScope, Stage, Value};
 use crate::problem::{Dimension, Formula, sections_form};
 use crate::sections;
@@ -25,16 +26,13 @@ pub(super) struct Link {
     pub inside: Option<u32>,
 }
 
-/// Definitions and links one below the other at the most: what reads them needs stack for each.
-const DEEPEST: u32 = 10_000;
-
 /// The formula last met for a text, so that a table's column of equal expressions is stored once.
 type Shared = Vec<Option<(Formula, u32)>>;
 
 /// What definitions and links say, parsed.
 struct Trees {
-    /// Definitions; `None` after a syntax mistake.
-    definitions: Vec<Option<Ast>>,
+    /// The texts of each definition; `None` after a syntax mistake.
+    definitions: Vec<Vec<Option<Ast>>>,
     /// Texts of links.
     texts: Vec<Option<Ast>>,
 }
@@ -53,44 +51,52 @@ fn full_name(mention: &Mention) -> Vec<String> {
 
 impl Assembly<'_> {
     /// Resolves `[definitions]` and computed dimensions. Nodes of the order: definitions, links, and one for "all links".
-    pub(super) fn links(&mut self, definitions: &[(Name, Scalar)]) {
+    pub(super) fn links(&mut self, definitions: &[(Name, DefinitionEntry)]) {
         self.definitions = vec![None; definitions.len()];
         let trees = self.trees(definitions);
         let (first_link, all) = (definitions.len(), definitions.len() + self.links.len());
+        let ranges = self.sequence_ranges(definitions);
         let needs = |node: u32| self.needs(node as usize, first_link, all, &trees);
-        let found = order(all + 1, needs);
+        let deepest = DEEPEST - ranges.iter().flatten().map(|range| range.last).sum::<u32>().min(DEEPEST);
+        let (found, leaders) = together(all + 1, |node| ranges.get(node as usize).is_some_and(Option::is_some), needs);
         let mut broken = vec![false; all + 1];
         for circle in &found.circles {
             self.say_circle(circle, definitions);
             circle.iter().for_each(|&node| broken[node as usize] = true);
         }
-        for node in (0..all).filter(|&node| found.depth[node] > DEEPEST) {
+        for node in (0..all).filter(|&node| found.depth[node] > deepest) {
             broken[node] = true;
-            if found.depth[node] == DEEPEST + 1 {
+            if found.depth[node] == deepest + 1 {
                 let place = definitions.get(node).map_or_else(|| self.links[node - first_link].place, |(name, _)| name.place);
-                let message = format!("more than {DEEPEST} definitions or links need one another in a chain");
-                self.findings.mistake(place, message, "shorten the chain: sum(…) adds up an array, or ribs and sections");
+                let message = format!("more than {deepest} definitions or links need one another in a chain");
+                self.findings.mistake(
+                    MistakeCode::Circle,
+                    place,
+                    message,
+                    "shorten the chain: sum(…) adds up an array, or ribs and sections",
+                );
             }
         }
         let mut shared: Shared = vec![None; self.texts.len()];
         for node in found.order.into_iter().map(|node| node as usize).filter(|&node| node < all && !broken[node]) {
             match node.checked_sub(first_link) {
-                None => self.definition(node, &definitions[node], trees.definitions[node].as_ref()),
+                None if ranges[node].is_some() => {
+                    let members: Vec<usize> = (0..first_link).filter(|&other| leaders[other] as usize == node).collect();
+                    self.sequences(&members, definitions, (&ranges, &trees.definitions));
+                }
+                None => self.definition(node, &definitions[node], trees.definitions[node].first().and_then(Option::as_ref)),
                 Some(link) => self.link(self.links[link], &trees, &mut shared),
             }
         }
         self.close_broken();
     }
 
-    fn trees(&mut self, definitions: &[(Name, Scalar)]) -> Trees {
+    fn trees(&mut self, definitions: &[(Name, DefinitionEntry)]) -> Trees {
         let texts = std::mem::take(&mut self.texts);
         let trees = Trees {
             definitions: definitions
                 .iter()
-                .map(|(_, scalar)| match scalar {
-                    Scalar::Number(..) => None,
-                    Scalar::Expression(written) => self.parsed(written, parse),
-                })
+                .map(|(_, entry)| entry.texts().map(|written| self.parsed(written, parse)).collect())
                 .collect(),
             texts: texts.iter().map(|written| self.parsed(written, parse)).collect(),
         };
@@ -103,17 +109,19 @@ impl Assembly<'_> {
         if node == all {
             return (first_link as u32..all as u32).collect();
         }
-        let (tree, own) = match node.checked_sub(first_link) {
-            None => (trees.definitions[node].as_ref(), None),
-            Some(link) => (trees.texts[self.links[link].text as usize].as_ref(), Some(self.links[link])),
+        let (of_node, own) = match node.checked_sub(first_link) {
+            None => (&trees.definitions[node][..], None),
+            Some(link) => (std::slice::from_ref(&trees.texts[self.links[link].text as usize]), Some(self.links[link])),
         };
-        let Some(tree) = tree else { return Vec::new() };
-        let (mentions, folds) = mentions(tree);
-        let mut needs: Vec<u32> = if folds { vec![all as u32] } else { Vec::new() };
-        for mention in mentions.iter().filter(|mention| !mention.in_fold) {
-            let parts = full_name(mention);
-            let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
-            self.need(&parts, own, (first_link, all), &mut needs);
+        let mut needs = Vec::new();
+        for tree in of_node.iter().flatten() {
+            let (mentions, folds) = mentions(tree);
+            needs.extend(folds.then_some(all as u32));
+            for mention in mentions.iter().filter(|mention| !mention.in_fold) {
+                let parts = full_name(mention);
+                let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+                self.need(&parts, own, (first_link, all), &mut needs);
+            }
         }
         needs.sort_unstable_by(|a, b| b.cmp(a));
         needs.dedup();
@@ -168,7 +176,7 @@ impl Assembly<'_> {
         sections_form(&self.problem, link.section as usize)?.dimensions.get(link.position as usize).copied()
     }
 
-    fn say_circle(&mut self, circle: &[u32], definitions: &[(Name, Scalar)]) {
+    fn say_circle(&mut self, circle: &[u32], definitions: &[(Name, DefinitionEntry)]) {
         let node = |node: u32| match definitions.get(node as usize) {
             Some((name, _)) => Some((name.text.clone(), name.place)),
             None => {
@@ -183,13 +191,13 @@ impl Assembly<'_> {
         }
     }
 
-    fn definition(&mut self, at: usize, (name, scalar): &(Name, Scalar), tree: Option<&Ast>) {
-        let value = match (scalar, tree) {
-            (Scalar::Number(value, _), _) => Some(Value::Scalar(Formula::Constant(*value))),
-            (Scalar::Expression(written), Some(tree)) => {
+    fn definition(&mut self, at: usize, (name, entry): &(Name, DefinitionEntry), tree: Option<&Ast>) {
+        let value = match (entry, tree) {
+            (DefinitionEntry::One(Scalar::Number(value, _)), _) => Some(Value::Scalar(Formula::Constant(*value))),
+            (DefinitionEntry::One(Scalar::Expression(written)), Some(tree)) => {
                 self.resolved(written, None, Stage::All, |resolver| resolver.value(tree))
             }
-            (Scalar::Expression(_), None) => None,
+            _ => None,
         };
         if let Some(value) = &value {
             let user = format!("definition `{}`", name.text);
@@ -207,7 +215,7 @@ impl Assembly<'_> {
     }
 
     /// Enters a definition and gives what stands for it where it is used: itself, or the number or variable it is.
-    fn defined(&mut self, name: String, formula: Formula) -> Formula {
+    pub(super) fn defined(&mut self, name: String, formula: Formula) -> Formula {
         let number = self.problem.definitions.len() as u32;
         self.problem.definitions.push((name, formula.clone()));
         match formula {
@@ -234,7 +242,12 @@ impl Assembly<'_> {
     fn linked(&mut self, link: Link, formula: Formula, shared: &mut Shared) -> Dimension {
         if let Some(value) = Evaluation::constants(&self.problem).value(&formula, Item::Section(link.section)) {
             if value.is_nan() {
-                self.findings.mistake(link.place, "this has no value", "it leaves the domain, as 0/0 or log(-1) do");
+                self.findings.mistake(
+                    MistakeCode::NoValue,
+                    link.place,
+                    "this has no value",
+                    "it leaves the domain, as 0/0 or log(-1) do",
+                );
             }
             self.positive(self.dimension_name(link).unwrap_or_default(), value, link.place);
             return Dimension::Constant(value);

@@ -9,6 +9,7 @@ use crate::expression::ast::Collection;
 use crate::input::declaration::{self, CatalogueEntry, ListEntry, Range, SectionEntry};
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::words::brief;
 use crate::problem::{Dimension, Listed};
@@ -39,7 +40,7 @@ impl Assembly<'_> {
                 let step = self.constant(scalar)?;
                 if !(step > 0.0 && step.is_finite()) {
                     let message = format!("`step` cannot be {}", brief(step));
-                    self.findings.mistake(scalar.place(), message, "expected a positive number");
+                    self.findings.mistake(MistakeCode::OutOfRange, scalar.place(), message, "expected a positive number");
                     return None;
                 }
                 Values::Step(step)
@@ -76,7 +77,7 @@ impl Assembly<'_> {
                 values.dedup();
                 if values.is_empty() {
                     let message = format!("no value of this list lies between {} and {}", brief(lower), brief(upper));
-                    self.findings.mistake(listing.place, message, "widen the bounds, or add values");
+                    self.findings.mistake(MistakeCode::List, listing.place, message, "widen the bounds, or add values");
                     return None;
                 }
                 return Some(values);
@@ -87,12 +88,13 @@ impl Assembly<'_> {
         // The last step may miss the bound by rounding.
         let count = ((upper - first) / step + 1e-9).floor() + 1.0;
         if !(lower.is_finite() && upper.is_finite()) {
-            self.findings.mistake(listing.place, "a list between open bounds", "give `lower` and `upper`");
+            self.findings.mistake(MistakeCode::List, listing.place, "a list between open bounds", "give `lower` and `upper`");
             return None;
         }
         if !(1.0..=MOST_VALUES).contains(&count) {
             let message = format!("a list of {} values", brief(count.max(0.0)));
             self.findings.mistake(
+                MistakeCode::List,
                 listing.place,
                 message,
                 format!("expected 1 to {MOST_VALUES}: choose another step or other bounds"),
@@ -129,6 +131,7 @@ impl Assembly<'_> {
             if Some(at) != name && !known(header) && !header.is_empty() {
                 let message = format!("`{header}` is no dimension of kind `{}`", kind.name());
                 self.findings.mistake(
+                    MistakeCode::Catalogue,
                     table.place(1, at as u16),
                     message,
                     "leave the column out, or choose the catalogue's `kind`",
@@ -137,7 +140,7 @@ impl Assembly<'_> {
         }
         let Some(name) = name else {
             let message = "the catalogue lacks the column `name`";
-            self.findings.mistake(table.place(1, Place::WHOLE_ROW), message, "add it to the header");
+            self.findings.mistake(MistakeCode::Catalogue, table.place(1, Place::WHOLE_ROW), message, "add it to the header");
             return None;
         };
         let (mut names, mut rows) = (Vec::new(), Vec::new());
@@ -146,7 +149,12 @@ impl Assembly<'_> {
             let numbers: Vec<Option<f64>> = columns.iter().map(|&at| row.number(at)).collect();
             for (&at, number) in columns.iter().zip(&numbers) {
                 if !number.is_some_and(|value| value > 0.0 && value.is_finite()) {
-                    self.findings.mistake(row.place(at), "a size of a catalogue is a positive number", None);
+                    self.findings.mistake(
+                        MistakeCode::OutOfRange,
+                        row.place(at),
+                        "a size of a catalogue is a positive number",
+                        None,
+                    );
                 }
             }
             names.push(row.field(name).to_owned());
@@ -154,7 +162,7 @@ impl Assembly<'_> {
         }
         table.say_how(&mut self.findings);
         if rows.is_empty() {
-            self.findings.mistake(entry.file.place, "the catalogue has no rows", "add a row per section");
+            self.findings.mistake(MistakeCode::Catalogue, entry.file.place, "the catalogue has no rows", "add a row per section");
             return None;
         }
         let catalogue = Catalogue { kind, columns: headers, names, rows };
@@ -173,6 +181,7 @@ impl Assembly<'_> {
                 let message =
                     format!("`{name}` is no property that sections of kind `{}` can be known by", catalogue.kind.name());
                 self.findings.mistake(
+                    MistakeCode::Catalogue,
                     written.place,
                     message,
                     "known: A, Ix, Iy, J, Wx, Wy, Asx, Asy, as far as the kind has them",
@@ -186,7 +195,12 @@ impl Assembly<'_> {
         };
         let Some(form) = catalogue.kind.forms().iter().find(fits) else {
             let message = format!("these columns do not give a section of kind `{}`", catalogue.kind.name());
-            self.findings.mistake(entry.file.place, message, "give the dimensions of one of the kind's forms");
+            self.findings.mistake(
+                MistakeCode::Catalogue,
+                entry.file.place,
+                message,
+                "give the dimensions of one of the kind's forms",
+            );
             return None;
         };
         let place = |name: &&str| catalogue.columns.iter().position(|column| column == name);
@@ -206,18 +220,18 @@ impl Assembly<'_> {
         let what = &entry.name;
         let Some(from) = &entry.from else {
             let message = format!("section `{}` is of no catalogue", what.text);
-            self.findings.mistake(what.place, message, "add from = \"…\", a name of [catalogues]");
+            self.findings.mistake(MistakeCode::Catalogue, what.place, message, "add from = \"…\", a name of [catalogues]");
             return None;
         };
         let Some(found) = self.catalogues.get(&from.text).cloned() else {
             let near = did_you_mean(&from.text, self.catalogues.keys().map(String::as_str));
             let help = near.unwrap_or_else(|| "declare it under [catalogues]".into());
-            self.findings.mistake(from.place, format!("there is no catalogue `{}`", from.text), help);
+            self.findings.mistake(MistakeCode::UnknownItem, from.place, format!("there is no catalogue `{}`", from.text), help);
             return None;
         };
         for (name, _) in &entry.dimensions {
             let message = format!("`{}`: the dimensions of this section are those of a row of `{}`", name.text, from.text);
-            self.findings.mistake(name.place, message, "leave it out");
+            self.findings.mistake(MistakeCode::UnknownKey, name.place, message, "leave it out");
         }
         found
     }
@@ -260,7 +274,7 @@ impl Assembly<'_> {
         let (rows, names): (Vec<Vec<f64>>, Vec<String>) = left.map(|(row, name)| (row.clone(), name.clone())).unzip();
         if rows.is_empty() {
             let message = format!("no row of the catalogue of `{name}` is within what was set");
-            self.findings.mistake(self.section_places[s], message, "widen what `--set` says");
+            self.findings.mistake(MistakeCode::List, self.section_places[s], message, "widen what `--set` says");
             return;
         }
         self.problem.listed.push(Listed { name, variables, rows, names });

@@ -15,6 +15,7 @@ mod outlines;
 mod overrides;
 mod profiles;
 mod requirement;
+mod sequences;
 mod spread;
 mod structure;
 mod tables;
@@ -32,6 +33,7 @@ use super::table::Tables;
 use crate::expression::ast::Collection;
 use crate::geometry::polygon::Ring;
 use crate::problem::Problem;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::modes;
 use crate::problem::names::{Entity, Names};
 use crate::problem::resolve::{Stage, Value, World};
@@ -225,9 +227,9 @@ impl<'a> Assembly<'a> {
         let reserved = ["pi", "where", "and", "or", "not"].contains(&name.text.as_str());
         if reserved {
             let message = format!("`{}` is a word of the language and cannot name a {what}", name.text);
-            self.findings.mistake(name.place, message, "choose another name");
+            self.findings.mistake(MistakeCode::ReservedName, name.place, message, "choose another name");
         } else if name.text.trim().is_empty() {
-            self.findings.mistake(name.place, format!("a {what} without a name"), "give it a name");
+            self.findings.mistake(MistakeCode::ReservedName, name.place, format!("a {what} without a name"), "give it a name");
         }
         !reserved && !name.text.trim().is_empty()
     }
@@ -238,7 +240,7 @@ impl<'a> Assembly<'a> {
         let place = self.entity_place(&name.text, first);
         let message = format!("the name `{}` is given twice", name.text);
         let help = format!("the {} is declared at {}; rename it or this {what}", first.word(), self.spoken(place));
-        self.findings.mistake(name.place, message, help);
+        self.findings.mistake(MistakeCode::DuplicateName, name.place, message, help);
         false
     }
 

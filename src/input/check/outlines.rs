@@ -8,6 +8,7 @@ use crate::input::declaration::{Name, PointsEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
 use crate::input::table::Row;
+use crate::problem::mistake_code::MistakeCode;
 use crate::sections::{self, Form};
 
 /// Points of one section, ring by ring; `None` after a mistake in them.
@@ -43,7 +44,10 @@ impl Assembly<'_> {
             return Some(Points { rings: known.clone(), place });
         }
         let read = crate::input::points(text);
-        let rings = read.map_err(|message| self.findings.mistake(place, message, "as in 0 0; 0.4 0; 0.4 0.3")).ok().map(Arc::new);
+        let rings = read
+            .map_err(|message| self.findings.mistake(MistakeCode::Outline, place, message, "as in 0 0; 0.4 0; 0.4 0.3"))
+            .ok()
+            .map(Arc::new);
         self.points.insert(text.to_owned(), rings.clone());
         Some(Points { rings, place })
     }
@@ -54,22 +58,32 @@ impl Assembly<'_> {
         match points {
             None if drawn => {
                 let help = "add points = [[x, y], [x, y], …]; in a table a column points: x y; x y; …";
-                self.findings.mistake(name.place, format!("section `{}` lacks `points`", name.text), help);
+                self.findings.mistake(MistakeCode::Outline, name.place, format!("section `{}` lacks `points`", name.text), help);
             }
             Some(points) if !drawn => {
                 let by_points = sections::KINDS.iter().filter(|kind| kind.has_outline()).map(|kind| kind.name());
                 let help = format!("kinds drawn by points: {}", by_points.collect::<Vec<_>>().join(", "));
-                self.findings.mistake(points.place, format!("a section of kind {kind} has no points"), help);
+                self.findings.mistake(
+                    MistakeCode::Outline,
+                    points.place,
+                    format!("a section of kind {kind} has no points"),
+                    help,
+                );
             }
             Some(Points { rings: Some(rings), place }) => {
                 let kind = sections::kind(kind);
                 if rings.len() > 1 && kind.is_some_and(|kind| !kind.takes_holes()) {
                     let message = format!("section `{}`: a {} takes no holes", name.text, kind.map_or("", |kind| kind.name()));
-                    self.findings.mistake(place, message, "a closed line of walls has its hole by itself; polygons take holes");
+                    self.findings.mistake(
+                        MistakeCode::Outline,
+                        place,
+                        message,
+                        "a closed line of walls has its hole by itself; polygons take holes",
+                    );
                 }
                 if let Some(reason) = form.and_then(|form| kind?.outline_defect(form, &rings)) {
                     let help = "list the corners in order, once round or along the line, without crossings";
-                    self.findings.mistake(place, format!("section `{}`: {reason}", name.text), help);
+                    self.findings.mistake(MistakeCode::Outline, place, format!("section `{}`: {reason}", name.text), help);
                 }
                 self.problem.sections.outlines.insert(s, rings);
             }

@@ -2,6 +2,7 @@
 
 use super::Assembly;
 use crate::input::source::Place;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Dimension, sections_form};
@@ -43,7 +44,7 @@ impl Assembly<'_> {
                 |start: usize, end: usize| Place::Argument { number: number as u16, start: start as u32, end: end as u32 };
             let Some((left, right)) = argument.split_once('=') else {
                 let help = "as in --set depth.upper=0.8 or --set E=200e6";
-                self.findings.mistake(place(0, argument.len()), "`--set` needs a name, `=` and a number", help);
+                self.findings.mistake(MistakeCode::Set, place(0, argument.len()), "`--set` needs a name, `=` and a number", help);
                 continue;
             };
             let quantity = self.units.quantity(right).map(|(value, _)| value);
@@ -59,7 +60,7 @@ impl Assembly<'_> {
                         }
                         _ => format!("`{right}` is no number"),
                     };
-                    self.findings.mistake(place, message, "expected a number, as in 0.8");
+                    self.findings.mistake(MistakeCode::Set, place, message, "expected a number, as in 0.8");
                 }
             }
         }
@@ -75,7 +76,7 @@ impl Assembly<'_> {
         };
         let help =
             "NAME=VALUE sets a parameter or fixes a variable such as depth, x[2] or support.b; NAME.lower=, .upper=, .start=";
-        self.findings.mistake(place, message, suggestion.unwrap_or_else(|| help.into()));
+        self.findings.mistake(MistakeCode::Set, place, message, suggestion.unwrap_or_else(|| help.into()));
     }
 
     /// `NAME=VALUE` for what is no parameter: a variable is fixed there, a fixed dimension takes another value.
@@ -102,7 +103,7 @@ impl Assembly<'_> {
                     self.positive(dimension, set.value, set.place);
                 } else {
                     let message = format!("`{}` follows from an expression", set.name);
-                    self.findings.mistake(set.place, message, "set what the expression is made of");
+                    self.findings.mistake(MistakeCode::Set, set.place, message, "set what the expression is made of");
                 }
             }
             None => self.unknown_override(set.place, &set.name),
@@ -120,7 +121,7 @@ impl Assembly<'_> {
                 let known = self.problem.variables.declared.iter().map(|name| &**name);
                 let help =
                     did_you_mean(&set.name, known).unwrap_or_else(|| "a variable is named as in depth, x[2] or support.b".into());
-                self.findings.mistake(set.place, format!("there is no variable `{}`", set.name), help);
+                self.findings.mistake(MistakeCode::Set, set.place, format!("there is no variable `{}`", set.name), help);
                 continue;
             };
             let table = &mut self.problem.variables;

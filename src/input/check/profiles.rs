@@ -5,6 +5,7 @@ use crate::input::declaration::{Declaration, Degree, ProfileEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
 use crate::problem::Profile;
+use crate::problem::mistake_code::MistakeCode;
 use crate::splines::{KnotVector, SplineError};
 
 /// The highest degree; polynomials of more wiggle.
@@ -28,7 +29,9 @@ impl Assembly<'_> {
         let degree = self.degree(&entry.degree)?;
         let Some((scalars, place)) = &entry.knots else {
             let made = KnotVector::clamped_uniform(degree, count, 0.0, 1.0);
-            return made.map_err(|error| self.findings.mistake(control, error.to_string(), "or lower the degree")).ok();
+            return made
+                .map_err(|error| self.findings.mistake(MistakeCode::Profile, control, error.to_string(), "or lower the degree"))
+                .ok();
         };
         let values: Option<Vec<f64>> = scalars.iter().map(|scalar| self.constant(scalar)).collect();
         let made = self.checked(degree, values?, count);
@@ -39,7 +42,7 @@ impl Assembly<'_> {
                 }
                 _ => *place,
             };
-            self.findings.mistake(at, error.to_string(), help);
+            self.findings.mistake(MistakeCode::Profile, at, error.to_string(), help);
         })
         .ok()
     }
@@ -70,7 +73,12 @@ impl Assembly<'_> {
         let value = self.constant(scalar)?;
         if value.fract() != 0.0 || !(0.0..=MOST).contains(&value) {
             let message = format!("a B-spline cannot have degree {value}");
-            self.findings.mistake(scalar.place(), message, format!("`degree` is a whole number from 0 to {MOST}"));
+            self.findings.mistake(
+                MistakeCode::OutOfRange,
+                scalar.place(),
+                message,
+                format!("`degree` is a whole number from 0 to {MOST}"),
+            );
             return None;
         }
         Some(value as usize)

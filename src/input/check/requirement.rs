@@ -8,6 +8,7 @@ use crate::input::source::Written;
 use crate::problem::cells::{Use, uses};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::mentions::mentions;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::{ItemScope, Stage, Value};
 use crate::problem::{Cells, Column, Formula, Limit, Problem, Scope};
 
@@ -61,7 +62,12 @@ impl Assembly<'_> {
         let count = lengths.first().copied().unwrap_or(1);
         if let Some(other) = lengths.iter().find(|length| **length != count) {
             let message = format!("the sides are arrays of {count} and {other} elements");
-            self.findings.mistake(written.place, message, "both need the same size; single numbers are repeated");
+            self.findings.mistake(
+                MistakeCode::ArraySize,
+                written.place,
+                message,
+                "both need the same size; single numbers are repeated",
+            );
             return None;
         }
         let element = |value: &Value, at: usize| match value {
@@ -95,7 +101,7 @@ impl Assembly<'_> {
                     if !constant {
                         let place = written.part(tree.span.start, tree.span.end);
                         let help = "the ends of a range are constant; write two constraints";
-                        self.findings.mistake(place, "this end of the range varies", help);
+                        self.findings.mistake(MistakeCode::NotConstant, place, "this end of the range varies", help);
                     }
                 }
                 let [lower, middle, upper]: [Formula; 3] = formulas.try_into().ok()?;
@@ -110,7 +116,7 @@ impl Assembly<'_> {
             && lower > upper
         {
             let message = format!("no number lies between {lower} and {upper}");
-            self.findings.mistake(written.place, message, "exchange the ends of the range");
+            self.findings.mistake(MistakeCode::NeverTrue, written.place, message, "exchange the ends of the range");
         }
     }
 
@@ -140,7 +146,12 @@ impl Assembly<'_> {
                     Item::Node(n) => format!(" (node `{}`)", self.problem.item_name(Collection::Nodes, n)),
                 };
                 let message = format!("constraint `{name}` has no variables and can never hold{row}");
-                self.findings.mistake(written.place, message, "it needs a design variable, or another limit");
+                self.findings.mistake(
+                    MistakeCode::NeverTrue,
+                    written.place,
+                    message,
+                    "it needs a design variable, or another limit",
+                );
             }
         }
     }
@@ -166,7 +177,12 @@ impl Assembly<'_> {
             if let Some((label, _)) = offending {
                 let place = written.part(mention.span.start, mention.span.end);
                 let message = format!("`{name}` differs within group `{label}`");
-                self.findings.mistake(place, message, "use it inside sum(…), min(…) or max(…) over the group");
+                self.findings.mistake(
+                    MistakeCode::Group,
+                    place,
+                    message,
+                    "use it inside sum(…), min(…) or max(…) over the group",
+                );
                 same = false;
             }
         }

@@ -6,6 +6,7 @@ use crate::expression::parse::parse_requirement;
 use crate::input::declaration::ConstraintEntry;
 use crate::input::source::Written;
 use crate::problem::glob::matches;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::outer::names_outer;
 use crate::problem::resolve::{Chosen, ItemScope, Open, Report, Resolver, Stage};
 use crate::problem::structure::{Plane, Structure};
@@ -132,7 +133,7 @@ impl Assembly<'_> {
             if hits.is_empty() {
                 let help = crate::problem::nearest::did_you_mean(&pattern.text, (0..sets).map(name));
                 let message = format!("no case or combination is called `{}`", pattern.text);
-                self.findings.mistake(pattern.place, message, help);
+                self.findings.mistake(MistakeCode::UnknownItem, pattern.place, message, help);
                 return None;
             }
             found.extend(hits);

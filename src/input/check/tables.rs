@@ -11,6 +11,7 @@ use crate::input::fields::Scalar;
 use crate::input::source::Written;
 use crate::input::table::{Row, Tables};
 use crate::problem::VolumeLaw;
+use crate::problem::mistake_code::MistakeCode;
 use columns::{Dimension, RibColumns, SectionColumns};
 
 impl Assembly<'_> {
@@ -64,7 +65,7 @@ impl Assembly<'_> {
         let place = row.place(value.or(any)?);
         if let (Some(_), Some(at)) = (value, any) {
             let message = format!("dimension `{}` is given twice", columns.name);
-            self.findings.mistake(row.place(at), message, "either the value or its bounds");
+            self.findings.mistake(MistakeCode::BothGiven, row.place(at), message, "either the value or its bounds");
         }
         let value = match value {
             Some(at) => match row.number(at) {
@@ -125,7 +126,7 @@ impl Assembly<'_> {
                 Some(_) => "fill the cells `start` and `end`, or `length`",
                 None => "expected a positive number",
             };
-            self.findings.mistake(place, format!("rib `{}` has no length", name.text), help);
+            self.findings.mistake(MistakeCode::RibEnds, place, format!("rib `{}` has no length", name.text), help);
         }
         let length = given.map_or(1.0, |(length, _)| length);
         let law = columns.law.map_or(VolumeLaw::default(), |at| self.law_cell(row, at));
@@ -147,7 +148,7 @@ impl Assembly<'_> {
         }
         VolumeLaw::named(text).unwrap_or_else(|| {
             let message = format!("unknown volume law `{text}`");
-            self.findings.mistake(row.place(at), message, "known: frustum, prismatoid");
+            self.findings.mistake(MistakeCode::UnknownChoice, row.place(at), message, "known: frustum, prismatoid");
             VolumeLaw::default()
         })
     }
@@ -166,7 +167,7 @@ impl Assembly<'_> {
             }
             _ => {
                 let message = format!("rib `{}` needs `from` and `to`, or `section`", name.text);
-                self.findings.mistake(name.place, message, "fill either the one cell or the other two");
+                self.findings.mistake(MistakeCode::RibEnds, name.place, message, "fill either the one cell or the other two");
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::input::declaration::{Numbers, Range, VariableEntry};
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
 use crate::math::within;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::Value;
 use crate::problem::words::brief;
 use crate::problem::{Formula, Origin};
@@ -57,6 +58,7 @@ impl Assembly<'_> {
         if !allowed(&value) {
             let message = format!("an array cannot have {} elements", brief(value));
             self.findings.mistake(
+                MistakeCode::OutOfRange,
                 size.place(),
                 message,
                 format!("`size` is a whole number from 1; all variables together are at most {LARGEST}"),
@@ -65,7 +67,7 @@ impl Assembly<'_> {
         }
         if let Err(cause) = memory::fits(BYTES * (value + f64::from(before))) {
             let message = format!("{} variables are too many here: {cause}", brief(value + f64::from(before)));
-            self.findings.mistake(size.place(), message, "give the array fewer elements");
+            self.findings.mistake(MistakeCode::OutOfRange, size.place(), message, "give the array fewer elements");
             return 1;
         }
         value as u32
@@ -102,7 +104,7 @@ impl Assembly<'_> {
                     Some(size) => format!("expected {size}, or one number for all"),
                     None => "expected one number; an array variable needs `size`".to_owned(),
                 };
-                self.findings.mistake(place, format!("an array of {} numbers", list.len()), expected);
+                self.findings.mistake(MistakeCode::ArraySize, place, format!("an array of {} numbers", list.len()), expected);
                 None
             }
         }
@@ -128,7 +130,7 @@ impl Assembly<'_> {
             let (lower, upper, start) = (variables.lower[j], variables.upper[j], variables.start[j]);
             if let Some((message, help)) = wrong(lower, upper, start) {
                 let name = self.problem.variable_name(j);
-                self.findings.mistake(self.variable_place(j), format!("`{name}`: {message}"), help);
+                self.findings.mistake(MistakeCode::Bounds, self.variable_place(j), format!("`{name}`: {message}"), help);
                 self.problem.variables.typical.push(0.0);
                 continue;
             }

@@ -1,5 +1,6 @@
 //! `[[checks]]`.
 
+use crate::problem::mistake_code::MistakeCode;
 use toml::de::DeValue;
 
 use crate::input::declaration::Name;
@@ -59,7 +60,7 @@ fn held(field: &Field, reader: &mut Reader) -> bool {
         _ => {
             let message = format!("`{}` is no table", field.key);
             let help = "write a table { length = …, … }, or \"held\" where the rib is held against it throughout";
-            reader.findings.mistake(field.place, message, help);
+            reader.findings.mistake(MistakeCode::WrongType, field.place, message, help);
             false
         }
     }

@@ -4,6 +4,7 @@ use crate::expression::ast::Collection;
 use crate::input::declaration::{ConstraintEntry, Name};
 use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
+use crate::problem::mistake_code::MistakeCode;
 
 /// One constraint.
 pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintEntry {
@@ -27,7 +28,12 @@ pub(super) fn constraint(mut fields: Fields, reader: &mut Reader) -> ConstraintE
         let filters = [&kind, &filter, &by].into_iter().flatten().chain(&only);
         for written in filters {
             let help = "add for = \"sections\" or for = \"ribs\"";
-            reader.findings.mistake(written.place, format!("{what} chooses among items, but has no `for`"), help);
+            reader.findings.mistake(
+                MistakeCode::Scope,
+                written.place,
+                format!("{what} chooses among items, but has no `for`"),
+                help,
+            );
         }
     }
     // With a wrong `for` nothing is known of the names that hold.
@@ -42,7 +48,12 @@ fn collection(written: &Written, reader: &mut Reader) -> Option<Collection> {
         "nodes" => Some(Collection::Nodes),
         other => {
             let message = format!("`for` is \"{other}\"");
-            reader.findings.mistake(written.place, message, "expected \"sections\", \"ribs\", \"nodes\" or \"i in 1..N\"");
+            reader.findings.mistake(
+                MistakeCode::UnknownChoice,
+                written.place,
+                message,
+                "expected \"sections\", \"ribs\", \"nodes\" or \"i in 1..N\"",
+            );
             None
         }
     }

@@ -1,5 +1,6 @@
 //! `step`, `values`, `integer`: sizes from lists; `[catalogues]`.
 
+use crate::problem::mistake_code::MistakeCode;
 use toml::de::DeValue;
 
 use super::name;
@@ -11,7 +12,12 @@ pub(super) fn list(fields: &mut Fields, reader: &mut Reader) -> Option<ListEntry
     let (step, values, integer) = (fields.take("step"), fields.take("values"), fields.take("integer"));
     let given: Vec<&Field> = [&step, &values, &integer].into_iter().flatten().collect();
     if let [_, second, ..] = given[..] {
-        reader.findings.mistake(second.key_place, "two lists of one size", "keep one of `step`, `values` and `integer`");
+        reader.findings.mistake(
+            MistakeCode::BothGiven,
+            second.key_place,
+            "two lists of one size",
+            "keep one of `step`, `values` and `integer`",
+        );
         return None;
     }
     let place = given.first()?.place;

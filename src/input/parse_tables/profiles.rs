@@ -3,6 +3,7 @@
 use super::{name, numbers, open_variable, range};
 use crate::input::declaration::{Degree, Numbers, ProfileEntry, Range, VariableEntry};
 use crate::input::fields::{Field, Fields, Reader, Scalar};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 
 /// The kinds of profile, with the degree and the number of control values that go with them.
@@ -23,7 +24,7 @@ pub(super) fn profile(field: &Field, variable: usize, reader: &mut Reader) -> (O
     if fixed.is_some() {
         for idle in degree.iter().chain(&knots) {
             let message = format!("`{}` does not go with the kind of {what}", idle.key);
-            reader.findings.mistake(idle.key_place, message, "leave it out, or use kind = \"b-spline\"");
+            reader.findings.mistake(MistakeCode::BothGiven, idle.key_place, message, "leave it out, or use kind = \"b-spline\"");
         }
     }
     let degree = match (fixed, degree.and_then(|field| field.scalar(reader))) {
@@ -53,7 +54,12 @@ fn kind(fields: &mut Fields, reader: &mut Reader) -> Option<Option<(u32, u32)>> 
         let names = || KINDS.iter().map(|(name, _)| *name);
         let help = did_you_mean(&written.text, names());
         let help = help.unwrap_or_else(|| format!("known: {}", names().collect::<Vec<_>>().join(", ")));
-        reader.findings.mistake(written.place, format!("unknown kind of profile `{}`", written.text), help);
+        reader.findings.mistake(
+            MistakeCode::UnknownChoice,
+            written.place,
+            format!("unknown kind of profile `{}`", written.text),
+            help,
+        );
     }
     known.map(|(_, fixed)| *fixed)
 }
@@ -74,7 +80,7 @@ fn controls(field: &Field, fields: &mut Fields, kind: Option<Option<u32>>, what:
         && *value != f64::from(size)
     {
         let message = format!("{what} has {size} control values by its kind, not {value}");
-        reader.findings.mistake(*place, message, "leave `size` out, or use kind = \"b-spline\"");
+        reader.findings.mistake(MistakeCode::BothGiven, *place, message, "leave `size` out, or use kind = \"b-spline\"");
     }
     let size = size.map(|size| Scalar::Number(size.into(), control.place)).or(given);
     let range: Range<Numbers> = range(&mut table, numbers, reader);

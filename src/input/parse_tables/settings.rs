@@ -2,6 +2,7 @@
 
 use crate::input::fields::{Field, Fields, Reader};
 use crate::input::source::Written;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::settings::{AUTO, BACKENDS, BackendNames, Settings};
 use crate::problem::words::brief;
@@ -59,7 +60,7 @@ fn checked(field: &Field, allowed: impl Fn(f64) -> bool, what: &str, reader: &mu
     let value = field.number(reader)?;
     if !allowed(value) {
         let message = format!("`{}` cannot be {}", field.key, brief(value));
-        reader.findings.mistake(field.place, message, format!("expected {what}"));
+        reader.findings.mistake(MistakeCode::OutOfRange, field.place, message, format!("expected {what}"));
         return None;
     }
     Some(value)
@@ -81,7 +82,7 @@ fn known(written: &Written, what: &str, names: &[&str], reader: &mut Reader) -> 
     if !found {
         let near = did_you_mean(&written.text, names.iter().copied());
         let help = near.unwrap_or_else(|| format!("known: {}", names.join(", ")));
-        reader.findings.mistake(written.place, format!("unknown {what} `{}`", written.text), help);
+        reader.findings.mistake(MistakeCode::UnknownChoice, written.place, format!("unknown {what} `{}`", written.text), help);
     }
     found
 }

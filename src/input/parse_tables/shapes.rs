@@ -5,6 +5,7 @@ use crate::input::declaration::{Datum, DimensionEntry, Name, PointsEntry, RibEnt
 use crate::input::fields::{Field, Fields, Reader, Scalar};
 use crate::input::source::Written;
 use crate::problem::VolumeLaw;
+use crate::problem::mistake_code::MistakeCode;
 use crate::sections::is_dimension;
 use toml::de::DeValue;
 
@@ -25,7 +26,12 @@ fn outline(fields: &mut Fields, reader: &mut Reader) -> Option<PointsEntry> {
     let (outer, holes) = (fields.take("points"), fields.take("holes"));
     let place = outer.as_ref().or(holes.as_ref())?.place;
     let Some(outer) = outer else {
-        reader.findings.mistake(place, "`holes` without `points`", "give the outer ring as points = [[x, y], [x, y], …]");
+        reader.findings.mistake(
+            MistakeCode::Outline,
+            place,
+            "`holes` without `points`",
+            "give the outer ring as points = [[x, y], [x, y], …]",
+        );
         return Some(PointsEntry { rings: None, place });
     };
     let (outer, holes) = (points(&outer, reader), holes.map_or(Some(Vec::new()), |field| rings(&field, reader)));
@@ -60,7 +66,7 @@ fn points(field: &Field, reader: &mut Reader) -> Option<Vec<[Scalar; 2]>> {
             let both = both?;
             if both.len() != 2 {
                 let message = format!("a point of {found} numbers");
-                reader.findings.mistake(item.place, message, format!("expected {SHAPE}"));
+                reader.findings.mistake(MistakeCode::Outline, item.place, message, format!("expected {SHAPE}"));
             }
             both.try_into().ok()
         })
@@ -153,7 +159,12 @@ fn ends(fields: &mut Fields, what: &str, reader: &mut Reader) -> (Option<Written
         (Some((_, section)), None, None) => (Some(section.clone()), Some(section)),
         (None, Some((_, from)), Some((_, to))) => (Some(from), Some(to)),
         (Some((place, _)), _, _) => {
-            reader.findings.mistake(place, format!("{what} has `section` and `from`/`to`"), "keep one of the two");
+            reader.findings.mistake(
+                MistakeCode::RibEnds,
+                place,
+                format!("{what} has `section` and `from`/`to`"),
+                "keep one of the two",
+            );
             (None, None)
         }
         (None, from, to) => {
@@ -165,7 +176,7 @@ fn ends(fields: &mut Fields, what: &str, reader: &mut Reader) -> (Option<Written
                 "its sections"
             };
             let help = "give `from` and `to`, or `section` for the same one at both ends";
-            reader.findings.mistake(place, format!("{what} lacks {lacking}"), help);
+            reader.findings.mistake(MistakeCode::RibEnds, place, format!("{what} lacks {lacking}"), help);
             (None, None)
         }
     }
@@ -176,7 +187,7 @@ fn law(written: &Written, reader: &mut Reader) -> Option<VolumeLaw> {
     let law = VolumeLaw::named(&written.text);
     if law.is_none() {
         let message = format!("unknown volume law `{}`", written.text);
-        reader.findings.mistake(written.place, message, "known: frustum, prismatoid");
+        reader.findings.mistake(MistakeCode::UnknownChoice, written.place, message, "known: frustum, prismatoid");
     }
     law
 }

@@ -2,6 +2,7 @@
 
 use super::Table;
 use crate::input::findings::Findings;
+use crate::problem::mistake_code::MistakeCode;
 use crate::units::{System, Unit};
 
 impl Table<'_> {
@@ -22,7 +23,7 @@ impl Table<'_> {
             });
             match own {
                 Ok(own) => self.units[at] = Some(own),
-                Err((message, help)) => findings.mistake(place, message, help),
+                Err((message, help)) => findings.mistake(MistakeCode::Units, place, message, help),
             }
             self.headers[at] = name.trim_end().to_owned();
         }

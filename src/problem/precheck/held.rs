@@ -1,6 +1,7 @@
 //! Parts of the structure that nothing holds, at all or in a direction.
 
 use super::{About, Site};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::DIRECTIONS;
 
 impl Site<'_> {
@@ -25,11 +26,16 @@ impl Site<'_> {
                     1 => "add [supports]",
                     _ => "support it, or join it to the rest: ribs are joined where they share a node",
                 };
-                self.mistake(about, format!("{whose} has no support"), help);
+                self.mistake(MistakeCode::Mechanism, about, format!("{whose} has no support"), help);
             } else {
                 let list = lacking.join(" and ");
                 let message = format!("nothing holds {whose} in {list}: it can slide");
-                self.mistake(about, message, format!("fix {list} of one of its nodes at least, or add a spring there"));
+                self.mistake(
+                    MistakeCode::Mechanism,
+                    about,
+                    message,
+                    format!("fix {list} of one of its nodes at least, or add a spring there"),
+                );
             }
         }
     }

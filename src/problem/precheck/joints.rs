@@ -1,6 +1,7 @@
 //! Nodes that can turn or move because of how ribs end there, and members that can turn about themselves.
 
 use super::{About, Site, plural};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::{Action, DIRECTIONS, Member, Plane};
 
 /// Directions whose normal part is below this share of them lie in one plane or line.
@@ -32,7 +33,12 @@ impl Site<'_> {
         let verb = if members.len() == 1 { "releases its torque" } else { "release their torque" };
         let words = self.ribs_in_words(members.iter().copied());
         let message = format!("{} {words} {verb} at both ends: it can turn about itself", plural("rib", members.len()));
-        self.mistake(About::Member(first), message.replace("it can", pronoun(members.len())), "keep T at one end");
+        self.mistake(
+            MistakeCode::Mechanism,
+            About::Member(first),
+            message.replace("it can", pronoun(members.len())),
+            "keep T at one end",
+        );
     }
 
     /// A moment acts where only bars end, which take none.
@@ -46,7 +52,12 @@ impl Site<'_> {
             let held = (0..3).all(|axis| moment[axis] == 0.0 || self.held[node as usize][3 + axis]);
             if !held && self.members_at[node as usize].iter().all(bar) {
                 let message = format!("a moment on node `{}`, where only bars end", self.node_name(node));
-                self.mistake(About::Load(at as u32), message, "bars take no moment: apply forces, or make joints rigid");
+                self.mistake(
+                    MistakeCode::Load,
+                    About::Load(at as u32),
+                    message,
+                    "bars take no moment: apply forces, or make joints rigid",
+                );
             }
         }
     }
@@ -90,7 +101,12 @@ impl Site<'_> {
                 _ => "the bars there lie in one line".to_owned(),
             };
             let message = format!("{word} {} can move in {way}: {lie}", self.nodes_in_words(&nodes));
-            self.mistake(About::Node(first), message, "add a bar out of it, support the node, or make joints rigid");
+            self.mistake(
+                MistakeCode::Mechanism,
+                About::Node(first),
+                message,
+                "add a bar out of it, support the node, or make joints rigid",
+            );
         }
     }
 
@@ -118,7 +134,7 @@ impl Site<'_> {
             in_words(axis),
             plural("rib", count)
         );
-        self.mistake(About::Node(node), message, "join one of them rigidly, or hold the node's rotation");
+        self.mistake(MistakeCode::Mechanism, About::Node(node), message, "join one of them rigidly, or hold the node's rotation");
     }
 
     /// Adds the axes about which a member's end resists turning; false where an arm carries it.

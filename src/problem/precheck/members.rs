@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{About, Site, plural};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::statics::{components, rule_of};
 use crate::problem::structure::{Action, Member, Plane};
 use crate::sections;
@@ -34,7 +35,12 @@ impl Site<'_> {
             let Some(up) = member.up else { continue };
             if Rule::Towards(up).is_parallel(self.along(at)) || up == [0.0; 3] {
                 let message = format!("`up` of rib `{}` points along the rib", self.rib_name(at));
-                self.mistake(About::Up(at), message, "give a direction across it: where the section's height points");
+                self.mistake(
+                    MistakeCode::Coordinates,
+                    About::Up(at),
+                    message,
+                    "give a direction across it: where the section's height points",
+                );
             }
         }
     }
@@ -112,7 +118,7 @@ impl Site<'_> {
             (_, ["J"]) => "release the torque at one end, hinges = { end = [\"T\"] }, or choose another kind".to_owned(),
             _ => "choose another kind".to_owned(),
         };
-        self.mistake(About::Member(members[0]), message, help);
+        self.mistake(MistakeCode::Material, About::Member(members[0]), message, help);
     }
 
     /// Forms of the sections at a member's ends, by number.
@@ -184,7 +190,7 @@ impl Site<'_> {
             let helps = ["add G = …, or nu = …", "add density = …", "add alpha = …, such as 1.2e-5"];
             for ((absent, about, message), help) in said.into_iter().zip(helps) {
                 if let (true, Some(about)) = (absent, about) {
-                    self.mistake(about, message, help);
+                    self.mistake(MistakeCode::Material, about, message, help);
                 }
             }
         }
@@ -193,7 +199,7 @@ impl Site<'_> {
         {
             let help =
                 "add gravity = [0, 0, -9.81] to [structure], or [0, 0, -1] where `density` is a weight; in a plane two numbers";
-            self.mistake(About::Load(*first), "self-weight without `gravity`".to_owned(), help);
+            self.mistake(MistakeCode::Load, About::Load(*first), "self-weight without `gravity`".to_owned(), help);
         }
     }
 

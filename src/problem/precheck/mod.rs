@@ -8,6 +8,7 @@ mod members;
 mod nodes;
 
 use super::Problem;
+use super::mistake_code::MistakeCode;
 use super::statics::position;
 use super::structure::Structure;
 
@@ -35,8 +36,8 @@ pub enum About {
 pub struct Finding {
     /// What it is about.
     pub about: About,
-    /// Whether the structure cannot be analysed.
-    pub fatal: bool,
+    /// What kind of mistake it is, where the structure cannot be analysed; `None`: to be looked at.
+    pub code: Option<MistakeCode>,
     /// What is wrong.
     pub message: String,
     /// What would be right.
@@ -79,12 +80,12 @@ pub fn findings(problem: &Problem) -> Vec<Finding> {
 }
 
 impl Site<'_> {
-    fn mistake(&mut self, about: About, message: String, help: impl Into<String>) {
-        self.found.push(Finding { about, fatal: true, message, help: help.into() });
+    fn mistake(&mut self, code: MistakeCode, about: About, message: String, help: impl Into<String>) {
+        self.found.push(Finding { about, code: Some(code), message, help: help.into() });
     }
 
     fn warning(&mut self, about: About, message: String, help: impl Into<String>) {
-        self.found.push(Finding { about, fatal: false, message, help: help.into() });
+        self.found.push(Finding { about, code: None, message, help: help.into() });
     }
 
     fn node_name(&self, node: u32) -> &str {

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::{About, Site, plural};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::Action;
 
 /// Nodes closer than this share of the structure's extent are at one place.
@@ -27,23 +28,27 @@ impl Site<'_> {
                 loaded[node as usize] = true;
             }
         }
-        for (what, help, fatal) in [
-            ("is loaded, but no rib ends there", "let a rib start or end there, or load another node", true),
-            ("is supported, but no rib ends there", "let a rib start or end there, or support another node", true),
-            ("is used by no rib", "leave it out, or let a rib start or end there", false),
+        for (what, help, code) in [
+            ("is loaded, but no rib ends there", "let a rib start or end there, or load another node", Some(MistakeCode::Load)),
+            (
+                "is supported, but no rib ends there",
+                "let a rib start or end there, or support another node",
+                Some(MistakeCode::Support),
+            ),
+            ("is used by no rib", "leave it out, or let a rib start or end there", None),
         ] {
             let concerned = |node: &u32| match (loaded[*node as usize], self.held[*node as usize].contains(&true)) {
                 (true, _) => what.starts_with("is loaded"),
                 (false, true) => what.starts_with("is supported"),
-                (false, false) => !fatal,
+                (false, false) => code.is_none(),
             };
             let nodes: Vec<u32> = idle.iter().copied().filter(concerned).collect();
             let Some(&first) = nodes.first() else { continue };
             let what = if nodes.len() == 1 { what.to_owned() } else { what.replacen("is ", "are ", 1) };
             let message = format!("{} {} {what}", plural("node", nodes.len()), self.nodes_in_words(&nodes));
-            match fatal {
-                true => self.mistake(About::Node(first), message, help),
-                false => self.warning(About::Node(first), message, help),
+            match code {
+                Some(code) => self.mistake(code, About::Node(first), message, help),
+                None => self.warning(About::Node(first), message, help),
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection, Condition};
 use crate::expression::operators::Comparison;
 use crate::problem::evaluate::{Evaluation, Item};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Cells, Formula, Problem};
 use crate::sections;
 
@@ -53,7 +54,12 @@ impl Resolver<'_, '_> {
         match (self.text(left), self.text(right)) {
             (Some(left_text), Some(right_text)) => match comparison {
                 Comparison::Equal | Comparison::NotEqual => Some(ItemFilter::Texts(comparison, left_text, right_text)),
-                _ => self.mistake(left.span, "texts are only equal or not", Some("compare with == or !=".into())),
+                _ => self.mistake(
+                    MistakeCode::TextAndNumber,
+                    left.span,
+                    "texts are only equal or not",
+                    Some("compare with == or !=".into()),
+                ),
             },
             (Some(_), None) => self.mixed(right.span),
             (None, Some(_)) => self.mixed(left.span),
@@ -65,7 +71,12 @@ impl Resolver<'_, '_> {
     }
 
     fn mixed(&mut self, span: Span) -> Option<ItemFilter> {
-        self.mistake(span, "a number is held against a text", Some("texts stand in quotes, numbers do not".into()))
+        self.mistake(
+            MistakeCode::TextAndNumber,
+            span,
+            "a number is held against a text",
+            Some("texts stand in quotes, numbers do not".into()),
+        )
     }
 
     /// A number to choose by; a variable has the value it starts from, and that is said.

@@ -1,5 +1,6 @@
 //! Looks up every name of an expression: [`Ast`] → [`Formula`], constants folded, arrays element by element.
 
+mod arrays;
 mod condition;
 mod name;
 pub mod outer;
@@ -15,6 +16,7 @@ use super::evaluate::{Evaluation, Item};
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::expression::operators::{Binary, Fold, Unary};
+use crate::problem::mistake_code::MistakeCode;
 pub use world::{Chosen, Open, Remark, Report, Stage, World};
 
 pub use super::item_scope::ItemScope;
@@ -58,7 +60,12 @@ impl<'a, 'r> Resolver<'a, 'r> {
             Value::Scalar(formula) => Some(formula),
             Value::Array(list) => {
                 let message = format!("this is an array of {}, where one number is needed", list.len());
-                self.mistake(ast.span, message, Some("index it, as in x[1], or join it: sum(…), min(…), max(…)".into()))
+                self.mistake(
+                    MistakeCode::ArraySize,
+                    ast.span,
+                    message,
+                    Some("index it, as in x[1], or join it: sum(…), min(…), max(…)".into()),
+                )
             }
         }
     }
@@ -74,9 +81,12 @@ impl<'a, 'r> Resolver<'a, 'r> {
             }
             AstKind::ValueIn(inner, unit) => self.measured(inner, **unit, Binary::Divide, ast.span),
             AstKind::OfUnit(inner, unit) => self.measured(inner, **unit, Binary::Multiply, ast.span),
-            AstKind::Text(_) => self.mistake(ast.span, "text is no number", Some("compare it in a `where`".into())),
+            AstKind::Text(_) => {
+                self.mistake(MistakeCode::TextAndNumber, ast.span, "text is no number", Some("compare it in a `where`".into()))
+            }
             AstKind::Name(parts) => self.name(parts, ast.span),
             AstKind::Index(base, index) => self.index(base, index, ast.span),
+            AstKind::Slice(base, ends) => self.slice(base, ends, ast.span),
             AstKind::Unary(op, operand) => {
                 let value = self.value(operand)?;
                 self.each(value, |formula| unary(*op, formula), ast.span)
@@ -102,6 +112,7 @@ impl<'a, 'r> Resolver<'a, 'r> {
                 self.response(name, arguments, ast.span)
             }
             AstKind::Call(name, arguments) if name == "profile" => self.profile(arguments, ast.span).map(Value::Scalar),
+            AstKind::Call(name, arguments) if name == "quadratic" => self.quadratic(arguments, ast.span).map(Value::Scalar),
             AstKind::Call(name, arguments) => self.call(name, arguments, ast.span),
         }
     }
@@ -110,14 +121,15 @@ impl<'a, 'r> Resolver<'a, 'r> {
     fn call(&mut self, name: &str, arguments: &[Ast], span: Span) -> Option<Value> {
         arguments.iter().for_each(|argument| drop(self.value(argument)));
         let span = Span { start: span.start, end: span.start + name.len() };
-        let functions = Unary::NAMED.iter().map(|(name, _)| *name).chain(["atan2", "min", "max", "sum", "profile"]);
+        let functions =
+            Unary::NAMED.iter().map(|(name, _)| *name).chain(["atan2", "dot", "max", "min", "profile", "quadratic", "sum"]);
         if self.world.names.find(self.world.problem, name).is_some() {
             let help = format!("write `{name}*(…)` for a product, `{name}[…]` for an element");
-            return self.mistake(span, format!("`{name}` is no function"), Some(help));
+            return self.mistake(MistakeCode::UnknownFunction, span, format!("`{name}` is no function"), Some(help));
         }
         let help = super::nearest::did_you_mean(name, functions.clone());
         let known = || format!("known: {}", functions.collect::<Vec<_>>().join(", "));
-        self.mistake(span, format!("unknown function `{name}`"), Some(help.unwrap_or_else(known)))
+        self.mistake(MistakeCode::UnknownFunction, span, format!("unknown function `{name}`"), Some(help.unwrap_or_else(known)))
     }
 
     /// `x[3]`
@@ -135,7 +147,12 @@ impl<'a, 'r> Resolver<'a, 'r> {
         }
         let (base_value, position) = (self.value(base), self.scalar(index));
         let Value::Array(mut list) = base_value? else {
-            return self.mistake(base.span, "this is one number, not an array", Some("leave the index out".into()));
+            return self.mistake(
+                MistakeCode::ArraySize,
+                base.span,
+                "this is one number, not an array",
+                Some("leave the index out".into()),
+            );
         };
         let at = self.position(position?, list.len(), index.span, span)?;
         Some(Value::Scalar(list.swap_remove(at)))
@@ -145,11 +162,11 @@ impl<'a, 'r> Resolver<'a, 'r> {
     fn position(&mut self, index: Formula, size: usize, at: Span, span: Span) -> Option<usize> {
         let Formula::Constant(position) = index else {
             let help = "an index is a number or an expression in parameters";
-            return self.mistake(at, "this index is not constant", Some(help.into()));
+            return self.mistake(MistakeCode::NotConstant, at, "this index is not constant", Some(help.into()));
         };
         if position.fract() != 0.0 || position < 1.0 || position > size as f64 {
             let message = format!("there is no element {position}");
-            return self.mistake(span, message, Some(format!("elements are counted from 1 to {size}")));
+            return self.mistake(MistakeCode::ArraySize, span, message, Some(format!("elements are counted from 1 to {size}")));
         }
         Some(position as usize - 1)
     }
@@ -166,7 +183,12 @@ impl<'a, 'r> Resolver<'a, 'r> {
             }
             (Array(left), Array(right)) => {
                 let message = format!("arrays of {} and {} elements do not go together", left.len(), right.len());
-                self.mistake(span, message, Some("both need the same size; single numbers are repeated".into()))
+                self.mistake(
+                    MistakeCode::ArraySize,
+                    span,
+                    message,
+                    Some("both need the same size; single numbers are repeated".into()),
+                )
             }
         }
     }
@@ -185,15 +207,18 @@ impl<'a, 'r> Resolver<'a, 'r> {
     /// The formula, unless it is a constant that is no number.
     fn known(&mut self, formula: Formula, span: Span) -> Option<Formula> {
         match formula {
-            Formula::Constant(value) if value.is_nan() => {
-                self.mistake(span, "this has no value", Some("it leaves the domain, as 0/0 or log(-1) do".into()))
-            }
+            Formula::Constant(value) if value.is_nan() => self.mistake(
+                MistakeCode::NoValue,
+                span,
+                "this has no value",
+                Some("it leaves the domain, as 0/0 or log(-1) do".into()),
+            ),
             formula => Some(formula),
         }
     }
 
-    fn mistake<T>(&mut self, span: Span, message: impl Into<String>, help: Option<String>) -> Option<T> {
-        self.report.mistakes.push(Remark { span, message: message.into(), help });
+    fn mistake<T>(&mut self, code: MistakeCode, span: Span, message: impl Into<String>, help: Option<String>) -> Option<T> {
+        self.report.mistakes.push((code, Remark { span, message: message.into(), help }));
         None
     }
 

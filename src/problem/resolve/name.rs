@@ -9,6 +9,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::problem::evaluate::number;
 use crate::problem::formula::{End, Total};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Cells, Dimension, Formula};
@@ -39,7 +40,12 @@ impl<'a> Resolver<'a, '_> {
             [name] => self.global(name, span),
             [item, name] => self.member(item, name, span).map(Value::Scalar),
             [rib, end, name] => self.rib_end(rib, end, name, span).map(Value::Scalar),
-            _ => self.mistake(span, "too many dots", Some("as in support.Ix, haunch.length, haunch.from.b".into())),
+            _ => self.mistake(
+                MistakeCode::Scope,
+                span,
+                "too many dots",
+                Some("as in support.Ix, haunch.length, haunch.from.b".into()),
+            ),
         }
     }
 
@@ -78,6 +84,7 @@ impl<'a> Resolver<'a, '_> {
             (None, ["from", _]) => Some(Formula::EndData(End::From, column)),
             (None, ["to", _]) => Some(Formula::EndData(End::To, column)),
             (None, _) if matches!(self.columns(collection)[column as usize].cells, Cells::Labels { .. }) => self.mistake(
+                MistakeCode::TextAndNumber,
                 span,
                 format!("data `{column_name}` are text"),
                 Some("only data of numbers can be reckoned with".into()),
@@ -142,7 +149,12 @@ impl<'a> Resolver<'a, '_> {
         if let Cells::Labels { labels, .. } = &columns[at].cells {
             let sample = labels.first().map_or("", |label| label);
             let message = format!("data `{name}` are text, such as \"{sample}\"");
-            return Some(self.mistake(span, message, Some("only data of numbers can be reckoned with".into())));
+            return Some(self.mistake(
+                MistakeCode::TextAndNumber,
+                span,
+                message,
+                Some("only data of numbers can be reckoned with".into()),
+            ));
         }
         Some(Some(Formula::OwnData(at as u32)))
     }
@@ -166,7 +178,7 @@ impl<'a> Resolver<'a, '_> {
             Some(Entity::Parameter(p)) => self.world.parameters.get(p as usize).cloned().flatten(),
             Some(entity) if self.world.stage == Stage::Constants => {
                 let message = format!("`{name}` is a {}, but this must be constant", entity.word());
-                self.mistake(span, message, Some("numbers and parameters may occur here".into()))
+                self.mistake(MistakeCode::NotConstant, span, message, Some("numbers and parameters may occur here".into()))
             }
             Some(Entity::Variable(v)) => Some(self.variable(v)),
             Some(Entity::Definition(d)) => match self.world.definitions.get(d as usize).cloned().flatten() {
@@ -176,7 +188,7 @@ impl<'a> Resolver<'a, '_> {
             Some(entity) => {
                 let message = format!("`{name}` is a {}, not a number", entity.word());
                 let what = if matches!(entity, Entity::Section(_)) { "Ix" } else { "length" };
-                self.mistake(span, message, Some(format!("say which property: `{name}.{what}`")))
+                self.mistake(MistakeCode::Scope, span, message, Some(format!("say which property: `{name}.{what}`")))
             }
             None => match total(name) {
                 _ if name == "pi" => Some(Value::Scalar(Formula::Constant(PI))),
@@ -204,15 +216,25 @@ impl<'a> Resolver<'a, '_> {
     /// The mistake of what does not follow from parameters and variables alone.
     pub(super) fn not_of_variables<T>(&mut self, what: &str, span: Span) -> Option<T> {
         if self.world.stage == Stage::Constants {
-            return self.mistake(span, format!("{what} is not constant"), Some("numbers and parameters may occur here".into()));
+            return self.mistake(
+                MistakeCode::NotConstant,
+                span,
+                format!("{what} is not constant"),
+                Some("numbers and parameters may occur here".into()),
+            );
         }
         let help = "numbers, parameters, variables and definitions made of these may occur here";
-        self.mistake(span, format!("{what} is not made of parameters and variables alone"), Some(help.into()))
+        self.mistake(
+            MistakeCode::NotConstant,
+            span,
+            format!("{what} is not made of parameters and variables alone"),
+            Some(help.into()),
+        )
     }
 
     fn volume(&mut self, total: Total, span: Span) -> Option<Formula> {
         if self.world.problem.ribs.names.is_empty() {
-            return self.mistake(span, "there are no ribs to have a volume", Some("add [[ribs]]".into()));
+            return self.mistake(MistakeCode::Scope, span, "there are no ribs to have a volume", Some("add [[ribs]]".into()));
         }
         Some(Formula::Volume(total))
     }
@@ -255,11 +277,11 @@ impl<'a> Resolver<'a, '_> {
         let help = did_you_mean(name, known);
         if let Some(kind) = self.scope.and_then(|scope| scope.lacking(name)) {
             let message = format!("`{name}` is not a name every section here has: kind `{kind}` has none");
-            return self.mistake(span, message, Some("choose the kind: kind = \"…\"".into()));
+            return self.mistake(MistakeCode::UnknownName, span, message, Some("choose the kind: kind = \"…\"".into()));
         }
         let message = format!("unknown name `{name}`");
         let declare = "declare it among parameters, variables or definitions";
-        self.mistake(span, message, Some(help.unwrap_or_else(|| declare.into())))
+        self.mistake(MistakeCode::UnknownName, span, message, Some(help.unwrap_or_else(|| declare.into())))
     }
 }
 

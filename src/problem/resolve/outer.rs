@@ -11,6 +11,7 @@ use crate::expression::ast::{Ast, AstKind, Collection, Requirement};
 use crate::expression::operators::Fold;
 use crate::problem::formula::{Formula, Members};
 use crate::problem::mentions::mentions;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Names;
 use crate::problem::{Cells, Problem};
 use crate::sections;
@@ -58,9 +59,16 @@ impl Resolver<'_, '_> {
             (Collection::Ribs, [end @ ("from" | "to"), name]) => self.section(ends(end)?, name, span),
             (Collection::Nodes, [name]) => match self.cell(collection, item, name, span) {
                 Some(value) => value,
-                None => self.mistake(span, format!("a node has no `{name}`"), Some("a node offers its data".into())),
+                None => self.mistake(
+                    MistakeCode::UnknownName,
+                    span,
+                    format!("a node has no `{name}`"),
+                    Some("a node offers its data".into()),
+                ),
             },
-            _ => self.mistake(span, "too many dots", Some("as in outer.length, outer.from.b, outer.x".into())),
+            _ => {
+                self.mistake(MistakeCode::Scope, span, "too many dots", Some("as in outer.length, outer.from.b, outer.x".into()))
+            }
         }
     }
 
@@ -82,7 +90,7 @@ impl Resolver<'_, '_> {
 
     fn no_outer<T>(&mut self, span: Span) -> Option<T> {
         let help = "it is the item outside a sum: of the row (for = \"ribs\", without `by`), or of the sum around this one";
-        self.mistake(span, "there is no item outside this", Some(help.into()))
+        self.mistake(MistakeCode::Scope, span, "there is no item outside this", Some(help.into()))
     }
 
     /// A sum whose items are named by sums inside it: one item after the other. `None` where they are not.

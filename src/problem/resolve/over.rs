@@ -9,6 +9,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection, Condition};
 use crate::expression::operators::Fold;
 use crate::problem::formula::{Formula, Members};
+use crate::problem::mistake_code::MistakeCode;
 
 impl Resolver<'_, '_> {
     /// The fold; over the row's own group where the rows are groups of this collection.
@@ -24,13 +25,23 @@ impl Resolver<'_, '_> {
             return self.not_of_variables("a sum over items", span);
         }
         if self.world.stage == Stage::Constants {
-            return self.mistake(span, "this must be constant", Some("numbers and parameters may occur here".into()));
+            return self.mistake(
+                MistakeCode::NotConstant,
+                span,
+                "this must be constant",
+                Some("numbers and parameters may occur here".into()),
+            );
         }
         let mut scope = ItemScope::all(self.world.problem, collection);
         if scope.members.is_empty() {
             let (word, table) = (word(collection), if collection == Collection::Ribs { "[[ribs]]" } else { "" });
             let table = if table.is_empty() { format!("[{word}]") } else { table.to_owned() };
-            return self.mistake(span, format!("there are no {word}"), Some(format!("add {table} or leave this out")));
+            return self.mistake(
+                MistakeCode::Scope,
+                span,
+                format!("there are no {word}"),
+                Some(format!("add {table} or leave this out")),
+            );
         }
         let listed = match filter {
             Some(condition) => Some(self.chosen(condition, &scope, span)?),
@@ -62,13 +73,18 @@ impl Resolver<'_, '_> {
         let filter = Resolver { scope: Some(scope), item: None, outer, ..self.reborrowed() }.condition(condition)?;
         match filter.choose(self.world.problem, scope) {
             Ok(list) => Some(Arc::new(list)),
-            Err(message) => self.mistake(span, message, Some(ItemFilter::REMEDY.into())),
+            Err(message) => self.mistake(MistakeCode::EmptyCell, span, message, Some(ItemFilter::REMEDY.into())),
         }
     }
 
     fn nothing(&mut self, fold: Fold, span: Span) -> Option<Formula> {
         if fold != Fold::Sum {
-            return self.mistake(span, "no item is chosen, so there is none to take", Some("widen the `where`".into()));
+            return self.mistake(
+                MistakeCode::Scope,
+                span,
+                "no item is chosen, so there is none to take",
+                Some("widen the `where`".into()),
+            );
         }
         // Of items resolved one by one some have none: the last of a row has nothing beyond it.
         if self.item.is_none() {

@@ -6,6 +6,7 @@ use crate::expression::ast::{Ast, AstKind};
 use crate::problem::cells::uses;
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::formula::Formula;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 
 impl Resolver<'_, '_> {
@@ -14,14 +15,19 @@ impl Resolver<'_, '_> {
         let example = || Some("as in profile(depth, 0.25)".to_owned());
         let [which, at] = arguments else {
             let message = format!("`profile` takes 2 arguments, not {}", arguments.len());
-            return self.mistake(span, message, example());
+            return self.mistake(MistakeCode::Profile, span, message, example());
         };
         if self.world.stage == Stage::Constants {
             let help = "numbers and parameters may occur here";
-            return self.mistake(span, "a profile varies, but this must be constant", Some(help.into()));
+            return self.mistake(
+                MistakeCode::NotConstant,
+                span,
+                "a profile varies, but this must be constant",
+                Some(help.into()),
+            );
         }
         let AstKind::Name(parts) = &which.kind else {
-            return self.mistake(which.span, "this is no name of a profile", example());
+            return self.mistake(MistakeCode::Profile, which.span, "this is no name of a profile", example());
         };
         // Both arguments are looked at, so that mistakes in either are found.
         let (number, parameter) = (self.profile_named(&parts.join("."), which.span), self.scalar(at));
@@ -43,7 +49,12 @@ impl Resolver<'_, '_> {
             None => format!("there is no profile `{name}`"),
         };
         let help = did_you_mean(name, profiles.iter().map(|profile| profile.name.as_str()));
-        self.mistake(span, message, Some(help.unwrap_or_else(|| format!("declare it: [profiles.{name}]"))))
+        self.mistake(
+            MistakeCode::UnknownItem,
+            span,
+            message,
+            Some(help.unwrap_or_else(|| format!("declare it: [profiles.{name}]"))),
+        )
     }
 
     /// The parameter of every item concerned is a number from 0 to 1.
@@ -59,13 +70,23 @@ impl Resolver<'_, '_> {
                 Some(s) => {
                     let of = self.words_for(item);
                     let help = "it runs from 0, the line's beginning, to 1, its end";
-                    return self.mistake(span, format!("the profile's parameter is {s}{of}"), Some(help.into()));
+                    return self.mistake(
+                        MistakeCode::Profile,
+                        span,
+                        format!("the profile's parameter is {s}{of}"),
+                        Some(help.into()),
+                    );
                 }
                 // An empty cell is told of where the formula is used.
                 None if uses(problem, parameter, self.scope).iter().any(|used| !used.empty.is_empty()) => {}
                 None => {
                     let help = "give a number, or an expression in parameters and data";
-                    return self.mistake(span, "the profile's parameter is not constant", Some(help.into()));
+                    return self.mistake(
+                        MistakeCode::NotConstant,
+                        span,
+                        "the profile's parameter is not constant",
+                        Some(help.into()),
+                    );
                 }
             }
         }

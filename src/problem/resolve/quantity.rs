@@ -5,6 +5,7 @@ use crate::expression::Span;
 use crate::expression::ast::Ast;
 use crate::expression::operators::Binary;
 use crate::problem::Formula;
+use crate::problem::mistake_code::MistakeCode;
 use crate::units::{System, Unit};
 
 impl Resolver<'_, '_> {
@@ -18,12 +19,17 @@ impl Resolver<'_, '_> {
         self.report.quantities = true;
         match convert(self.world.units) {
             Ok(value) if value.is_finite() => Some(value),
-            Ok(_) => self.mistake(span, "this is too large in the file's units", Some("choose other base units".into())),
+            Ok(_) => self.mistake(
+                MistakeCode::Units,
+                span,
+                "this is too large in the file's units",
+                Some("choose other base units".into()),
+            ),
             Err(key) => {
                 let message = format!("the file does not say in which unit of {key} its numbers are");
                 let example = if key == "force" { "kN" } else { "m" };
                 let help = format!("add {key} = \"{example}\" to `units`: this is {}", unit.dimension());
-                self.mistake(span, message, Some(help))
+                self.mistake(MistakeCode::Units, span, message, Some(help))
             }
         }
     }

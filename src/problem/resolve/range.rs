@@ -5,6 +5,7 @@ use crate::expression::Span;
 use crate::expression::ast::Ast;
 use crate::expression::operators::Fold;
 use crate::problem::Formula;
+use crate::problem::mistake_code::MistakeCode;
 
 /// Numbers of one range: a term is written out for each.
 pub const MOST_NUMBERS: f64 = 1e6;
@@ -24,6 +25,7 @@ impl Resolver<'_, '_> {
             return match fold {
                 Fold::Sum => Some(Formula::Constant(0.0)),
                 _ => self.mistake(
+                    MistakeCode::NumberRange,
                     span,
                     "a range without numbers has no least and no largest one",
                     Some("its first number comes first".into()),
@@ -40,6 +42,7 @@ impl Resolver<'_, '_> {
             let formula = self.scalar(end)?;
             let Formula::Constant(value) = formula else {
                 return self.mistake(
+                    MistakeCode::NotConstant,
                     end.span,
                     "this end of the range is not constant",
                     Some("numbers and parameters may occur here".into()),
@@ -47,13 +50,23 @@ impl Resolver<'_, '_> {
             };
             if value.fract() != 0.0 || value.abs() > MOST_NUMBERS {
                 let message = format!("a range cannot end at {}", crate::problem::words::brief(value));
-                return self.mistake(end.span, message, Some(format!("expected a whole number of at most {MOST_NUMBERS}")));
+                return self.mistake(
+                    MistakeCode::NumberRange,
+                    end.span,
+                    message,
+                    Some(format!("expected a whole number of at most {MOST_NUMBERS}")),
+                );
             }
             *number = value as i64;
         }
         let [first, last] = numbers;
         if (last - first) as f64 >= MOST_NUMBERS {
-            return self.mistake(span, "this range is too long", Some(format!("expected at most {MOST_NUMBERS} numbers")));
+            return self.mistake(
+                MistakeCode::NumberRange,
+                span,
+                "this range is too long",
+                Some(format!("expected at most {MOST_NUMBERS} numbers")),
+            );
         }
         Some(first..=last)
     }

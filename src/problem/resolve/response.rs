@@ -15,6 +15,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection};
 use crate::problem::Formula;
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::modes::Pencil;
 use crate::problem::structure::Structure;
 use crate::structure::beam::Force;
@@ -25,11 +26,21 @@ impl<'a> Resolver<'a, '_> {
     pub(super) fn response(&mut self, name: &str, arguments: &[Ast], span: Span) -> Option<Value> {
         let Some(structure) = self.world.problem.structure.as_deref() else {
             let help = "declare [nodes], [supports] and ribs with `start` and `end`";
-            return self.mistake(span, format!("`{name}` needs a structure, and there is none"), Some(help.into()));
+            return self.mistake(
+                MistakeCode::NoStructure,
+                span,
+                format!("`{name}` needs a structure, and there is none"),
+                Some(help.into()),
+            );
         };
         if self.world.stage == Stage::Constants {
             let help = "numbers and parameters may occur here";
-            return self.mistake(span, format!("`{name}` depends on the design, but this must be constant"), Some(help.into()));
+            return self.mistake(
+                MistakeCode::NotConstant,
+                span,
+                format!("`{name}` depends on the design, but this must be constant"),
+                Some(help.into()),
+            );
         }
         let mut arguments = Arguments { list: arguments.iter().map(Argument::of).collect(), span };
         let formula = match name {
@@ -44,7 +55,7 @@ impl<'a> Resolver<'a, '_> {
         };
         if let Some(surplus) = arguments.list.front() {
             let help = format!("`{name}` takes {}", shape(name));
-            return self.mistake(surplus.ast.span, format!("this is no argument of `{name}`"), Some(help));
+            return self.mistake(MistakeCode::Response, surplus.ast.span, format!("this is no argument of `{name}`"), Some(help));
         }
         Some(Value::Scalar(formula))
     }
@@ -85,7 +96,12 @@ impl<'a> Resolver<'a, '_> {
         let station = self.station(arguments)?;
         if self.group != Some(Collection::Ribs) {
             let help = "use it with for = \"ribs\" and by = \"line\", a datum that tells which ribs make up a line";
-            return self.mistake(arguments.span, "`sag` is taken from the chord of a line of ribs", Some(help.into()));
+            return self.mistake(
+                MistakeCode::Group,
+                arguments.span,
+                "`sag` is taken from the chord of a line of ribs",
+                Some(help.into()),
+            );
         }
         self.report.open.sag = true;
         Some(Formula::Response(Arc::new(Response { set, subject: rib, what: What::Sag(vertical, station, [0, 0]) })))

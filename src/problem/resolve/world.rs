@@ -1,6 +1,7 @@
 //! What a formula is resolved against, and what comes of it beside the formula.
 
 use super::super::Problem;
+use super::super::mistake_code::MistakeCode;
 use super::super::names::Names;
 use super::Value;
 use crate::expression::Span;
@@ -22,7 +23,7 @@ pub struct Remark {
 #[derive(Debug, Default)]
 pub struct Report {
     /// Mistakes; where there is one, there is no formula.
-    pub mistakes: Vec<Remark>,
+    pub mistakes: Vec<(MistakeCode, Remark)>,
     /// Item names that hide a global one, and choices made at the start.
     pub warnings: Vec<Remark>,
     /// What responses left open.

@@ -9,6 +9,8 @@ use super::{FORMAT, write_value};
 /// A mistake of the command line or the problem file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mistake {
+    /// What `ribopt explain` explains it by, where it is one of reading.
+    pub code: Option<&'static str>,
     /// The file it is in.
     pub file: Option<String>,
     /// Line, counted from 1.
@@ -24,7 +26,7 @@ pub struct Mistake {
 impl Mistake {
     /// A mistake that is in no file.
     pub fn of_command(message: String) -> Mistake {
-        Mistake { file: None, line: None, column: None, message, help: None }
+        Mistake { code: None, file: None, line: None, column: None, message, help: None }
     }
 }
 

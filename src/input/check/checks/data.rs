@@ -7,6 +7,7 @@ use crate::input::declaration::checks::{AxisEntry, CheckEntry, LengthEntry, LtbE
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::evaluate::{Evaluation, Item};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::resolve::{ItemScope, Stage};
 
@@ -43,7 +44,7 @@ impl Assembly<'_> {
     pub(super) fn needed<'s, T>(&mut self, value: Option<&'s T>, key: &str, place: Place, what: &str) -> Option<&'s T> {
         if value.is_none() {
             let meaning = MEANINGS.iter().find(|(known, _)| *known == key).map_or("", |(_, meaning)| meaning);
-            self.findings.mistake(place, format!("{what} needs `{key}`"), format!("add it: {meaning}"));
+            self.findings.mistake(MistakeCode::MissingKey, place, format!("{what} needs `{key}`"), format!("add it: {meaning}"));
         }
         value
     }
@@ -55,7 +56,12 @@ impl Assembly<'_> {
         if number > 0.0 && number.is_finite() {
             return Some(number);
         }
-        self.findings.mistake(scalar.place(), format!("`{key}` cannot be {number}"), "expected a positive number");
+        self.findings.mistake(
+            MistakeCode::OutOfRange,
+            scalar.place(),
+            format!("`{key}` cannot be {number}"),
+            "expected a positive number",
+        );
         None
     }
 
@@ -71,7 +77,12 @@ impl Assembly<'_> {
         };
         for &rib in &scope.members {
             if let Some(value) = self.value_of(scalar, scope, rib).filter(|value| *value <= 0.0 || !value.is_finite()) {
-                self.findings.mistake(scalar.place(), format!("`{key}` cannot be {value}"), "expected a positive number");
+                self.findings.mistake(
+                    MistakeCode::OutOfRange,
+                    scalar.place(),
+                    format!("`{key}` cannot be {value}"),
+                    "expected a positive number",
+                );
                 return None;
             }
         }
@@ -96,7 +107,12 @@ impl Assembly<'_> {
         }
         let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
         let message = format!("`{key}` is \"{}\"", written.text);
-        self.findings.mistake(written.place, message, format!("expected one of {}", words.join(", ")));
+        self.findings.mistake(
+            MistakeCode::UnknownChoice,
+            written.place,
+            message,
+            format!("expected one of {}", words.join(", ")),
+        );
         None
     }
 
@@ -123,7 +139,7 @@ impl Assembly<'_> {
         for (key, place) in given {
             if !known.contains(&key) {
                 let help = format!("it takes ribs, cases, buckling and {}", known.join(", "));
-                self.findings.mistake(place, format!("a check by {code} has no `{key}`"), help);
+                self.findings.mistake(MistakeCode::Check, place, format!("a check by {code} has no `{key}`"), help);
             }
         }
     }
@@ -132,7 +148,12 @@ impl Assembly<'_> {
     pub(super) fn code(&mut self, entry: &CheckEntry, what: &str, scope: &ItemScope) -> Option<Code> {
         let Some(written) = &entry.code else {
             let names: Vec<String> = CODES.iter().map(|(code, _)| format!("\"{code}\"")).collect();
-            self.findings.mistake(entry.place, format!("{what} needs `code`"), format!("one of {}", names.join(", ")));
+            self.findings.mistake(
+                MistakeCode::MissingKey,
+                entry.place,
+                format!("{what} needs `code`"),
+                format!("one of {}", names.join(", ")),
+            );
             return None;
         };
         match written.text.as_str() {
@@ -157,7 +178,7 @@ impl Assembly<'_> {
             other => {
                 let help = did_you_mean(other, CODES.iter().map(|(code, _)| *code));
                 let help = help.unwrap_or_else(|| format!("known: {}", CODES.map(|(code, _)| code).join(", ")));
-                self.findings.mistake(written.place, format!("unknown code `{other}`"), help);
+                self.findings.mistake(MistakeCode::UnknownChoice, written.place, format!("unknown code `{other}`"), help);
                 None
             }
         }
@@ -184,7 +205,7 @@ impl Assembly<'_> {
             return Some(class as u8);
         }
         let help = "1, 2 or 3: sections of class 4 lose a part of their area, which is not covered";
-        self.findings.mistake(scalar.place(), format!("`class` cannot be {class}"), help);
+        self.findings.mistake(MistakeCode::OutOfRange, scalar.place(), format!("`class` cannot be {class}"), help);
         None
     }
 
@@ -203,7 +224,7 @@ impl Assembly<'_> {
                 let message = format!("{what}: `buckling` says nothing about {axis}");
                 let help =
                     format!("add {axis} = {{ length = … }}, or {axis} = \"held\" where the rib is held against it throughout");
-                self.findings.mistake(buckling.place, message, help);
+                self.findings.mistake(MistakeCode::Check, buckling.place, message, help);
             }
             found.push(given.as_ref().and_then(|given| self.buckling_axis(given, what, scope, curves, system)));
         }
@@ -218,7 +239,7 @@ impl Assembly<'_> {
             AxisEntry::Given { place, length, curve } => (*place, length, curve),
         };
         if let (false, Some(curve)) = (curves, curve) {
-            self.findings.mistake(curve.place, "only EN 1993-1-1 has buckling curves", "leave `curve` out");
+            self.findings.mistake(MistakeCode::Check, curve.place, "only EN 1993-1-1 has buckling curves", "leave `curve` out");
         }
         let alpha = match curves {
             true => self.needed(curve.as_ref(), "curve", place, what).and_then(|curve| self.word(curve, "curve", &CURVES)),
@@ -232,7 +253,12 @@ impl Assembly<'_> {
             LengthEntry::System(_) if system => Some(Axis::System { alpha: alpha? }),
             LengthEntry::System(place) => {
                 let help = "give a length; the structure's own factor is used by checks by EN 1993-1-1";
-                self.findings.mistake(*place, "this code takes no buckling length of the whole structure", help);
+                self.findings.mistake(
+                    MistakeCode::Check,
+                    *place,
+                    "this code takes no buckling length of the whole structure",
+                    help,
+                );
                 None
             }
         }

@@ -9,6 +9,7 @@ use crate::expression::ast::Collection;
 use crate::input::codes::{AXES, Axis, Bending, En, JOIN, Ltb};
 use crate::input::declaration::checks::CheckEntry;
 use crate::problem::evaluate::{Evaluation, Item};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::range::Ranges;
 use crate::problem::resolve::ItemScope;
 use crate::problem::structure::{Action, Plane, Structure};
@@ -212,7 +213,7 @@ impl Assembly<'_> {
         {
             let message =
                 format!("{what}: a plane structure's factor knows nothing of buckling out of its plane, which is about z");
-            self.findings.mistake(place, message, "give z a length, or \"held\"");
+            self.findings.mistake(MistakeCode::Check, place, message, "give z a length, or \"held\"");
             return false;
         }
         let kinds: Vec<&str> = scope.members.iter().map(|&rib| self.kind_at(rib)).collect();
@@ -226,6 +227,7 @@ impl Assembly<'_> {
         if let (Ltb::Given { .. }, Some(kind)) = (&bending.ltb, stranger(&["h-beam"])) {
             let message = format!("{what}: M_cr is known for doubly symmetric H beams, not for kind {kind}");
             self.findings.mistake(
+                MistakeCode::Check,
                 place,
                 message,
                 "write ltb = \"held\" for hollow and solid sections, or check these ribs apart",
@@ -234,7 +236,12 @@ impl Assembly<'_> {
         }
         if let (Some(_), Some(kind)) = (bending.cm, stranger(&ANNEX_B)) {
             let message = format!("{what}: Annex B has no factors for sections of kind {kind}");
-            self.findings.mistake(place, message, format!("it has them for {}; leave `Cm` out", ANNEX_B.join(", ")));
+            self.findings.mistake(
+                MistakeCode::Check,
+                place,
+                message,
+                format!("it has them for {}; leave `Cm` out", ANNEX_B.join(", ")),
+            );
             return false;
         }
         true

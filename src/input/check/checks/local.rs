@@ -11,6 +11,7 @@ use crate::input::declaration::checks::CheckEntry;
 use crate::input::fields::Scalar;
 use crate::problem::Scope;
 use crate::problem::checks::Check;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::ItemScope;
 
 /// ε = √(235 MPa/fy) of Table 5.2.
@@ -62,7 +63,7 @@ impl Assembly<'_> {
         let found = self.value_of(fy, scope, rib);
         if found.is_none() {
             let help = "limits of width over thickness need a number: give fy as one, or as \"material.fy\"";
-            self.findings.mistake(fy.place(), "this yield strength varies with the design", help);
+            self.findings.mistake(MistakeCode::Check, fy.place(), "this yield strength varies with the design", help);
         }
         found
     }
@@ -82,7 +83,12 @@ impl Assembly<'_> {
                 let young = structure.material_number(material, "E");
                 let Some(young) = young else {
                     let help = "limits of width over thickness need a number for E";
-                    self.findings.mistake(entry.place, format!("check `{}`: E varies with the design", check.name), help);
+                    self.findings.mistake(
+                        MistakeCode::Material,
+                        entry.place,
+                        format!("check `{}`: E varies with the design", check.name),
+                        help,
+                    );
                     return None;
                 };
                 ("B4.1a", nonslender(kind, young / fy, *made))

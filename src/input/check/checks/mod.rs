@@ -16,6 +16,7 @@ use crate::input::declaration::checks::CheckEntry;
 use crate::input::source::{Place, Written};
 use crate::problem::checks::{Check, CheckRow};
 use crate::problem::glob::matches;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::resolve::{ItemScope, Report, Resolver, Stage};
 use crate::problem::{Constraint, Formula, Scope};
@@ -60,11 +61,21 @@ impl Assembly<'_> {
     fn ribs_checked(&mut self, entry: &CheckEntry, what: &str) -> Option<ItemScope> {
         let Some(structure) = self.problem.structure.clone() else {
             let help = "declare [nodes], [supports] and ribs with `start` and `end`";
-            self.findings.mistake(entry.place, format!("{what} needs a structure, and there is none"), help);
+            self.findings.mistake(
+                MistakeCode::NoStructure,
+                entry.place,
+                format!("{what} needs a structure, and there is none"),
+                help,
+            );
             return None;
         };
         if entry.ribs.is_empty() {
-            self.findings.mistake(entry.place, format!("{what} needs `ribs`"), "add it: names or patterns, as ribs = [\"c*\"]");
+            self.findings.mistake(
+                MistakeCode::MissingKey,
+                entry.place,
+                format!("{what} needs `ribs`"),
+                "add it: names or patterns, as ribs = [\"c*\"]",
+            );
             return None;
         }
         let mut chosen: Vec<u32> = Vec::new();
@@ -73,12 +84,22 @@ impl Assembly<'_> {
             let hits: Vec<u32> = (0..names.len() as u32).filter(|&rib| matches(&pattern.text, &names[rib as usize])).collect();
             if hits.is_empty() {
                 let help = did_you_mean(&pattern.text, names.iter().take(10_000));
-                self.findings.mistake(pattern.place, format!("no rib is called `{}`", pattern.text), help);
+                self.findings.mistake(
+                    MistakeCode::UnknownItem,
+                    pattern.place,
+                    format!("no rib is called `{}`", pattern.text),
+                    help,
+                );
                 return None;
             }
             if let Some(&rib) = hits.iter().find(|&&rib| structure.member(rib).is_none()) {
                 let message = format!("rib `{}` has no nodes, so it is no part of the structure", &names[rib as usize]);
-                self.findings.mistake(pattern.place, message, "give it `start` and `end`, or choose others");
+                self.findings.mistake(
+                    MistakeCode::NoStructure,
+                    pattern.place,
+                    message,
+                    "give it `start` and `end`, or choose others",
+                );
                 return None;
             }
             chosen.extend(hits);
@@ -91,7 +112,7 @@ impl Assembly<'_> {
     fn cases_checked(&mut self, entry: &CheckEntry, what: &str) -> Option<Vec<u32>> {
         if entry.cases.is_empty() {
             let help = "add it: cases and combinations, as cases = [\"ULS*\"]";
-            self.findings.mistake(entry.place, format!("{what} needs `cases`"), help);
+            self.findings.mistake(MistakeCode::MissingKey, entry.place, format!("{what} needs `cases`"), help);
             return None;
         }
         Some(self.cases(&entry.cases)?.into_iter().flatten().collect())

@@ -3,6 +3,7 @@
 use super::super::Assembly;
 use crate::input::codes::{Bending, CURVES, Ltb};
 use crate::input::declaration::checks::{CheckEntry, CmEntry, LtbData, LtbEntry};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::ItemScope;
 
 impl Assembly<'_> {
@@ -14,7 +15,7 @@ impl Assembly<'_> {
                 let message = format!("{what}: `Cm` without `ltb`");
                 let help = "add ltb = { length = …, C1 = …, curve = … }, or ltb = \"held\" where the compressed flange is held, \
                             or the section is hollow";
-                self.findings.mistake(cm.place, message, help);
+                self.findings.mistake(MistakeCode::Check, cm.place, message, help);
                 return None;
             }
             (Some(LtbEntry::Wrong), _) => return None,
@@ -33,12 +34,17 @@ impl Assembly<'_> {
         for (key, scalar) in [("y", &given.y), ("z", &given.z), ("LT", &given.lt)] {
             let Some(scalar) = scalar else {
                 let help = format!("add {key} = …: the equivalent uniform moment factor of Table B.3, 1 for a uniform moment");
-                self.findings.mistake(given.place, format!("{what}: `Cm` lacks `{key}`"), help);
+                self.findings.mistake(MistakeCode::MissingKey, given.place, format!("{what}: `Cm` lacks `{key}`"), help);
                 continue;
             };
             let value = self.constant(scalar)?;
             if !(0.4..=1.0).contains(&value) {
-                self.findings.mistake(scalar.place(), format!("Cm cannot be {value}"), "Table B.3 gives 0.4 to 1");
+                self.findings.mistake(
+                    MistakeCode::OutOfRange,
+                    scalar.place(),
+                    format!("Cm cannot be {value}"),
+                    "Table B.3 gives 0.4 to 1",
+                );
                 continue;
             }
             factors.push(value);
@@ -68,7 +74,7 @@ impl Assembly<'_> {
                 for (key, given) in [("lambda_LT0", &data.lambda0), ("beta", &data.beta)] {
                     if let Some(scalar) = given {
                         let help = "add clause = \"6.3.2.3\" for rolled sections and their like, or leave it out";
-                        self.findings.mistake(scalar.place(), format!("6.3.2.2 has no `{key}`"), help);
+                        self.findings.mistake(MistakeCode::UnknownKey, scalar.place(), format!("6.3.2.2 has no `{key}`"), help);
                     }
                 }
                 [0.2, 1.0]

@@ -5,6 +5,7 @@ use super::Given;
 use crate::input::declaration::{Name, RibEntry};
 use crate::input::source::Place;
 use crate::problem::VolumeLaw;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::sections::{self, Form, Kind};
@@ -30,7 +31,12 @@ impl Assembly<'_> {
     pub(super) fn rib_word(&mut self, name: &str, place: Place) -> bool {
         let taken = ["length", "volume", "from", "to", "section", "name"].contains(&name);
         if taken {
-            self.findings.mistake(place, format!("a rib has a `{name}` already"), "choose another name for the datum");
+            self.findings.mistake(
+                MistakeCode::ReservedName,
+                place,
+                format!("a rib has a `{name}` already"),
+                "choose another name for the datum",
+            );
         }
         taken
     }
@@ -40,7 +46,12 @@ impl Assembly<'_> {
         if value > 0.0 && value < f64::INFINITY {
             return value;
         }
-        self.findings.mistake(place, format!("a rib cannot be {value} long"), "expected a positive number");
+        self.findings.mistake(
+            MistakeCode::OutOfRange,
+            place,
+            format!("a rib cannot be {value} long"),
+            "expected a positive number",
+        );
         1.0
     }
 
@@ -91,7 +102,7 @@ impl Assembly<'_> {
                 Some(entity) => format!("`{name}` is a {}, not a section", entity.word()),
                 None => format!("there is no section `{name}`"),
             };
-            self.findings.mistake(place, message, help);
+            self.findings.mistake(MistakeCode::UnknownItem, place, message, help);
         }
         found
     }
@@ -103,12 +114,12 @@ impl Assembly<'_> {
         if kind(from) != kind(to) {
             let name = &self.problem.ribs.names[r as usize];
             let message = format!("rib `{name}` joins sections of two kinds: {} and {}", kind(from), kind(to));
-            self.findings.mistake(place, message, "a rib runs between two sections of one kind");
+            self.findings.mistake(MistakeCode::RibEnds, place, message, "a rib runs between two sections of one kind");
         } else if self.problem.outline(from) != self.problem.outline(to) {
             // Neither a solid between them nor its prismatoid volume would be defined.
             let message = format!("rib `{}` joins sections drawn by different points", &self.problem.ribs.names[r as usize]);
             let help = "draw both by the same points; their dimensions (scale, thickness) may differ";
-            self.findings.mistake(place, message, help);
+            self.findings.mistake(MistakeCode::RibEnds, place, message, help);
         }
         self.problem.ribs.from[r as usize] = from;
         self.problem.ribs.to[r as usize] = to;

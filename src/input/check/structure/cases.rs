@@ -4,6 +4,7 @@ use super::super::Assembly;
 use crate::input::declaration::Name;
 use crate::input::declaration::structure::StructureEntries;
 use crate::input::source::Place;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::Combination;
 
@@ -52,7 +53,12 @@ impl Assembly<'_> {
     fn new_combination(&mut self, name: &Name) {
         if self.building.cases.contains_key(name.text.as_str()) {
             let message = format!("`{}` is a load case already", name.text);
-            self.findings.mistake(name.place, message, "cases and combinations share their names; rename one of them");
+            self.findings.mistake(
+                MistakeCode::DuplicateName,
+                name.place,
+                message,
+                "cases and combinations share their names; rename one of them",
+            );
         }
     }
 
@@ -63,6 +69,6 @@ impl Assembly<'_> {
             list => format!("known: {}", list.join(", ")),
         };
         let help = help.unwrap_or_else(known);
-        self.findings.mistake(name.place, format!("there is no load case `{}`", name.text), help);
+        self.findings.mistake(MistakeCode::UnknownItem, name.place, format!("there is no load case `{}`", name.text), help);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::super::Assembly;
 use crate::problem::evaluate::Evaluation;
+use crate::problem::mistake_code::MistakeCode;
 
 /// |Ixy| up to this share of √(Ix·Iy) is rounding.
 const PRINCIPAL: f64 = 1e-9;
@@ -28,7 +29,7 @@ impl Assembly<'_> {
                 &self.problem.sections.names[section as usize]
             );
             let help = "turn the section to its principal axes, take a symmetric one, or make the rib a bar: joints = \"pinned\"";
-            self.findings.mistake(self.rib_places[rib as usize], message, help);
+            self.findings.mistake(MistakeCode::SkewBending, self.rib_places[rib as usize], message, help);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::super::Assembly;
 use crate::input::source::Place;
 use crate::problem::Dimension;
 use crate::problem::evaluate::Evaluation;
+use crate::problem::mistake_code::MistakeCode;
 
 /// Largest relative difference of a length given beside the distance of the nodes.
 const SAME: f64 = 1e-9;
@@ -41,7 +42,7 @@ impl Assembly<'_> {
             if declared.iter().all(known) && position.iter().any(|value| !value.is_finite()) {
                 let message = format!("node `{}` has no place at the start", &self.building.structure.nodes.names[node]);
                 let help = "its coordinates leave their domain there: give other starts";
-                self.findings.mistake(self.building.node_places[node], message, help);
+                self.findings.mistake(MistakeCode::NoValue, self.building.node_places[node], message, help);
             }
         }
     }
@@ -61,14 +62,14 @@ impl Assembly<'_> {
         let nodes = &self.building.structure.nodes.names;
         let (name, [start, end]) = (&self.problem.ribs.names[rib], ends.map(|node| &nodes[node as usize]));
         let message = format!("rib `{name}` has no length: nodes `{start}` and `{end}` are at one place");
-        self.findings.mistake(self.rib_places[rib], message, "move one of them, or leave the rib out");
+        self.findings.mistake(MistakeCode::RibEnds, self.rib_places[rib], message, "move one of them, or leave the rib out");
     }
 
     fn same_length(&mut self, rib: usize, given: f64, length: f64, place: Place) {
         if (given - length).abs() > SAME * length {
             let name = &self.problem.ribs.names[rib];
             let message = format!("rib `{name}` is {given} long here, but its nodes are {length} apart");
-            self.findings.mistake(place, message, "leave `length` out: it follows from the nodes");
+            self.findings.mistake(MistakeCode::RibEnds, place, message, "leave `length` out: it follows from the nodes");
         }
     }
 }

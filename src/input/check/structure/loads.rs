@@ -7,6 +7,7 @@ use super::targets::Target;
 use crate::input::declaration::structure::{LoadEntry, StructureEntries, Targets};
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::{Action, DIRECTIONS, Load};
 pub(super) use effect::Effect;
 
@@ -37,7 +38,7 @@ impl Assembly<'_> {
         };
         if let Some(other) = other {
             let message = format!("this load acts on {key}, not on {other_key}");
-            self.findings.mistake(other.place, message, format!("write {key} = [\"…\"]"));
+            self.findings.mistake(MistakeCode::UnknownItem, other.place, message, format!("write {key} = [\"…\"]"));
             return Vec::new();
         }
         match wanted {
@@ -49,7 +50,7 @@ impl Assembly<'_> {
             None if entry.self_weight.is_some() => (0..self.building.structure.members.len() as u32).collect(),
             None => {
                 let message = "this load acts on nothing";
-                self.findings.mistake(entry.place, message, format!("add {key} = [\"…\"], names or patterns"));
+                self.findings.mistake(MistakeCode::Load, entry.place, message, format!("add {key} = [\"…\"], names or patterns"));
                 Vec::new()
             }
         }
@@ -63,7 +64,7 @@ impl Assembly<'_> {
             && let (Some(&rib), Some(written)) = (ribs.first(), names.first())
         {
             let message = format!("rib `{}` has no nodes and bears no load", &self.problem.ribs.names[rib as usize]);
-            self.findings.mistake(written.place, message, "give it `start` and `end`");
+            self.findings.mistake(MistakeCode::NoStructure, written.place, message, "give it `start` and `end`");
         }
         members
     }
@@ -108,7 +109,7 @@ impl Assembly<'_> {
     fn on_a_bar(&mut self, what: &str, member: u32, place: Place) {
         let rib = self.building.structure.members[member as usize].rib;
         let message = format!("{what}: rib `{}` has pinned joints", &self.problem.ribs.names[rib as usize]);
-        self.findings.mistake(place, message, "load its nodes, or make its joints rigid");
+        self.findings.mistake(MistakeCode::Load, place, message, "load its nodes, or make its joints rigid");
     }
 
     fn is_fixed(&mut self, node: u32, direction: u8, place: Place) -> bool {
@@ -117,7 +118,12 @@ impl Assembly<'_> {
         if !fixed {
             let (name, direction) = (&self.building.structure.nodes.names[node as usize], DIRECTIONS[direction as usize]);
             let message = format!("node `{name}` is displaced in {direction}, but not supported there");
-            self.findings.mistake(place, message, format!("fix `{direction}` of this node under [supports]"));
+            self.findings.mistake(
+                MistakeCode::Support,
+                place,
+                message,
+                format!("fix `{direction}` of this node under [supports]"),
+            );
         }
         fixed
     }

@@ -6,6 +6,7 @@ use crate::input::declaration::structure::{MaterialEntry, StructureEntries};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::problem::Dimension;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::{Material, Shear};
 
@@ -31,12 +32,17 @@ impl Assembly<'_> {
             }
             None => {
                 let message = format!("material `{}` lacks `E`", entry.name.text);
-                self.findings.mistake(entry.name.place, message, "add E = …, Young's modulus in the file's units");
+                self.findings.mistake(
+                    MistakeCode::Material,
+                    entry.name.place,
+                    message,
+                    "add E = …, Young's modulus in the file's units",
+                );
             }
         }
         if let (Some(_), Some((nu, _))) = (find("G"), find("nu")) {
             let message = format!("material `{}` has `G` and `nu`", entry.name.text);
-            self.findings.mistake(nu.place, message, "keep one of the two: G = E/(2·(1 + nu))");
+            self.findings.mistake(MistakeCode::BothGiven, nu.place, message, "keep one of the two: G = E/(2·(1 + nu))");
         }
         for (key, scalar) in &entry.numbers {
             match key.text.as_str() {
@@ -64,13 +70,23 @@ impl Assembly<'_> {
         if value > -1.0 && value <= 0.5 {
             return Some(value);
         }
-        self.findings.mistake(scalar.place(), format!("`nu` cannot be {value}"), "Poisson's ratio lies between -1 and 0.5");
+        self.findings.mistake(
+            MistakeCode::OutOfRange,
+            scalar.place(),
+            format!("`nu` cannot be {value}"),
+            "Poisson's ratio lies between -1 and 0.5",
+        );
         None
     }
 
     pub(super) fn not_negative(&mut self, value: f64, key: &Name) -> bool {
         if value < 0.0 {
-            self.findings.mistake(key.place, format!("`{}` cannot be {value}", key.text), "expected 0 or more");
+            self.findings.mistake(
+                MistakeCode::OutOfRange,
+                key.place,
+                format!("`{}` cannot be {value}", key.text),
+                "expected 0 or more",
+            );
         }
         value >= 0.0
     }
@@ -89,7 +105,7 @@ impl Assembly<'_> {
                     0 => "declare one: [materials] steel = { E = 210e6, nu = 0.3 }".to_owned(),
                     _ => format!("say which of the {count}: material = \"{}\"", self.building.structure.materials[0].name),
                 };
-                self.findings.mistake(what.place, format!("rib `{}` has no material", what.text), help);
+                self.findings.mistake(MistakeCode::Material, what.place, format!("rib `{}` has no material", what.text), help);
                 None
             }
         }
@@ -98,7 +114,7 @@ impl Assembly<'_> {
     fn unknown_material<T>(&mut self, name: &str, place: Place) -> Option<T> {
         let known = self.building.structure.materials.iter().map(|material| &*material.name);
         let help = did_you_mean(name, known).unwrap_or_else(|| "declare it under [materials]".into());
-        self.findings.mistake(place, format!("there is no material `{name}`"), help);
+        self.findings.mistake(MistakeCode::UnknownItem, place, format!("there is no material `{name}`"), help);
         None
     }
 }

@@ -5,6 +5,7 @@ use super::Said;
 use crate::input::declaration::structure::MemberEntry;
 use crate::input::declaration::{Name, RibEntry};
 use crate::input::source::Written;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::structure::{Hinges, Member, Plane};
 
@@ -33,7 +34,12 @@ impl Assembly<'_> {
         if !entry.given() {
             if let Some(place) = entry.key {
                 let message = format!("rib `{}` has no nodes", name.text);
-                self.findings.mistake(place, message, "add start = \"NODE\" and end = \"NODE\", or leave this out");
+                self.findings.mistake(
+                    MistakeCode::NoStructure,
+                    place,
+                    message,
+                    "add start = \"NODE\" and end = \"NODE\", or leave this out",
+                );
             }
             return;
         }
@@ -63,14 +69,14 @@ impl Assembly<'_> {
         let (Some(start), Some(end)) = (&entry.start, &entry.end) else {
             let lacking = if entry.start.is_some() { "end" } else { "start" };
             let message = format!("rib `{}` lacks `{lacking}`", name.text);
-            self.findings.mistake(name.place, message, format!("add {lacking} = \"NODE\""));
+            self.findings.mistake(MistakeCode::RibEnds, name.place, message, format!("add {lacking} = \"NODE\""));
             let given = entry.start.as_ref().or(entry.end.as_ref());
             given.and_then(|written| self.node_named(written));
             return (None, None);
         };
         if start.text == end.text {
             let message = format!("rib `{}` starts and ends at node `{}`", name.text, start.text);
-            self.findings.mistake(end.place, message, "a rib runs between two nodes");
+            self.findings.mistake(MistakeCode::RibEnds, end.place, message, "a rib runs between two nodes");
             return (None, None);
         }
         (self.node_named(start), self.node_named(end))
@@ -101,13 +107,13 @@ impl Assembly<'_> {
                 "My" => hinges.my = true,
                 "Mz" | "T" if self.building.structure.plane != Plane::Space => {
                     let message = format!("a plane structure has no {}", written.text);
-                    self.findings.mistake(written.place, message, "its only moment is My");
+                    self.findings.mistake(MistakeCode::UnknownChoice, written.place, message, "its only moment is My");
                 }
                 "Mz" => hinges.mz = true,
                 "T" => hinges.torque = true,
                 "N" | "Vy" | "Vz" => {
                     let message = format!("{} cannot be released", written.text);
-                    self.findings.mistake(written.place, message, "a hinge releases My, Mz or T");
+                    self.findings.mistake(MistakeCode::UnknownChoice, written.place, message, "a hinge releases My, Mz or T");
                 }
                 _ => {
                     let _: Option<()> = self.unknown_word(written, "force", &["My", "Mz", "T"]);

@@ -25,6 +25,7 @@ use super::data::DataColumns;
 use crate::input::declaration::Declaration;
 use crate::input::source::Place;
 use crate::input::table::Tables;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::precheck::{self, About};
 use crate::problem::structure::Structure;
 
@@ -101,14 +102,19 @@ impl Assembly<'_> {
         }
         if self.problem.structure.as_ref().is_some_and(|structure| structure.members.is_empty()) {
             let place = whole.or(self.building.node_places.first().copied()).unwrap_or(Place::Whole);
-            self.findings.mistake(place, "no rib runs between nodes", "give ribs `start` and `end`, or leave the structure out");
+            self.findings.mistake(
+                MistakeCode::NoStructure,
+                place,
+                "no rib runs between nodes",
+                "give ribs `start` and `end`, or leave the structure out",
+            );
             return;
         }
         for finding in precheck::findings(&self.problem) {
             let place = self.place_of(finding.about).or(whole).unwrap_or(Place::Whole);
-            match finding.fatal {
-                true => self.findings.mistake(place, finding.message, finding.help),
-                false => self.findings.warning(place, finding.message, finding.help),
+            match finding.code {
+                Some(code) => self.findings.mistake(code, place, finding.message, finding.help),
+                None => self.findings.warning(place, finding.message, finding.help),
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::input::declaration::structure::Vector;
 use crate::input::declaration::{Declaration, Name};
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::DIRECTIONS;
 use crate::problem::{Cells, Column, Dimension};
@@ -40,14 +41,19 @@ impl Assembly<'_> {
     /// Adds a node.
     pub(in crate::input::check) fn node(&mut self, name: &Name, position: [Dimension; 3]) -> Option<u32> {
         if name.text.trim().is_empty() {
-            self.findings.mistake(name.place, "a node without a name", "give it a name");
+            self.findings.mistake(MistakeCode::ReservedName, name.place, "a node without a name", "give it a name");
             return None;
         }
         let nodes = &mut self.building.structure.nodes;
         if let Some(first) = self.names.nodes.find(&nodes.names, &name.text) {
             let first = self.spoken(self.building.node_places[first as usize]);
             let message = format!("the node `{}` is given twice", name.text);
-            self.findings.mistake(name.place, message, format!("the first is declared at {first}; rename one of them"));
+            self.findings.mistake(
+                MistakeCode::DuplicateName,
+                name.place,
+                message,
+                format!("the first is declared at {first}; rename one of them"),
+            );
             return None;
         }
         let number = nodes.names.len() as u32;
@@ -93,6 +99,6 @@ impl Assembly<'_> {
         }
         let near = did_you_mean(name, self.building.structure.nodes.names.iter().take(10_000));
         let help = near.unwrap_or_else(|| "declare it under [nodes] or in the table of nodes".into());
-        self.findings.mistake(place, format!("there is no node `{name}`"), help);
+        self.findings.mistake(MistakeCode::UnknownItem, place, format!("there is no node `{name}`"), help);
     }
 }

@@ -4,6 +4,7 @@ use super::super::Assembly;
 use crate::input::declaration::structure::Vector;
 use crate::input::fields::Scalar;
 use crate::input::source::Place;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::Stage;
 use crate::problem::structure::Plane;
 use crate::problem::words::{brief, count};
@@ -69,7 +70,7 @@ impl Assembly<'_> {
             _ => format!("expected {}", numbers(expected)),
         };
         let message = format!("{what}: {}, but {space} takes {expected}", numbers(found));
-        self.findings.mistake(vector.place, message, help);
+        self.findings.mistake(MistakeCode::Coordinates, vector.place, message, help);
         None
     }
 
@@ -79,13 +80,23 @@ impl Assembly<'_> {
         if value.is_finite() {
             return Some(value);
         }
-        self.findings.mistake(scalar.place(), format!("this cannot be {value}"), "expected a finite number");
+        self.findings.mistake(
+            MistakeCode::NoNumber,
+            scalar.place(),
+            format!("this cannot be {value}"),
+            "expected a finite number",
+        );
         None
     }
 
     pub(super) fn is_positive(&mut self, value: f64, place: Place, what: &str) -> bool {
         if value <= 0.0 {
-            self.findings.mistake(place, format!("{what} cannot be {}", brief(value)), "expected a positive number");
+            self.findings.mistake(
+                MistakeCode::OutOfRange,
+                place,
+                format!("{what} cannot be {}", brief(value)),
+                "expected a positive number",
+            );
         }
         value > 0.0
     }
@@ -98,7 +109,12 @@ impl Assembly<'_> {
         match formula {
             Formula::Constant(value) if value.is_finite() => Some(Dimension::Constant(value)),
             Formula::Constant(value) => {
-                self.findings.mistake(written.place, format!("this cannot be {value}"), "expected a finite number");
+                self.findings.mistake(
+                    MistakeCode::NoNumber,
+                    written.place,
+                    format!("this cannot be {value}"),
+                    "expected a finite number",
+                );
                 None
             }
             Formula::Variable(j) => Some(Dimension::Variable(j)),

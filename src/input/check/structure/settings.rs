@@ -4,6 +4,7 @@ use super::super::Assembly;
 use crate::input::declaration::structure::{Stations, StructureEntries};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::Plane;
 use crate::problem::words::brief;
@@ -61,7 +62,7 @@ impl Assembly<'_> {
         let inside = list.iter().all(|at| (0.0..=1.0).contains(at));
         if list.is_empty() || !inside || list.windows(2).any(|pair| pair[0] >= pair[1]) {
             let help = "fractions of the rib's length from 0 to 1, rising, such as [0, 0.5, 1]; or how many, such as 9";
-            self.findings.mistake(place, "these are no stations", help);
+            self.findings.mistake(MistakeCode::OutOfRange, place, "these are no stations", help);
             return even(STATIONS);
         }
         list
@@ -74,7 +75,12 @@ impl Assembly<'_> {
             return Some(value as u32);
         }
         let message = format!("`{key}` cannot be {}", brief(value));
-        self.findings.mistake(scalar.place(), message, format!("expected a whole number from {least} to {most}"));
+        self.findings.mistake(
+            MistakeCode::OutOfRange,
+            scalar.place(),
+            message,
+            format!("expected a whole number from {least} to {most}"),
+        );
         None
     }
 
@@ -82,7 +88,7 @@ impl Assembly<'_> {
     pub(super) fn unknown_word<T>(&mut self, written: &Written, what: &str, known: &[&'static str]) -> Option<T> {
         let near = did_you_mean(&written.text, known.iter().copied());
         let help = near.unwrap_or_else(|| format!("known: {}", known.join(", ")));
-        self.findings.mistake(written.place, format!("unknown {what} `{}`", written.text), help);
+        self.findings.mistake(MistakeCode::UnknownChoice, written.place, format!("unknown {what} `{}`", written.text), help);
         None
     }
 }

@@ -8,6 +8,7 @@ use crate::input::declaration::structure::{Fix, StructureEntries};
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
 use crate::input::table::Tables;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::{DIRECTIONS, Support};
 
@@ -55,7 +56,7 @@ impl Assembly<'_> {
         let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
         let message = format!("node `{name}`{more} is supported twice");
         let help = format!("its support is given at {} already; say all it holds in one place", self.spoken(first));
-        self.findings.mistake(place, message, help);
+        self.findings.mistake(MistakeCode::BothGiven, place, message, help);
     }
 
     pub(super) fn fixed(&mut self, fix: &Fix) -> [bool; 6] {
@@ -66,7 +67,12 @@ impl Assembly<'_> {
                     let help = did_you_mean(&written.text, ["fixed", "pinned"].into_iter());
                     let known = "known: \"fixed\", \"pinned\", or a list of directions such as [\"x\", \"z\"]";
                     let message = format!("unknown support `{}`", written.text);
-                    self.findings.mistake(written.place, message, help.unwrap_or_else(|| known.into()));
+                    self.findings.mistake(
+                        MistakeCode::UnknownChoice,
+                        written.place,
+                        message,
+                        help.unwrap_or_else(|| known.into()),
+                    );
                     [false; 6]
                 }
             },
@@ -109,7 +115,7 @@ impl Assembly<'_> {
             _ => format!("there is no direction `{name}`"),
         };
         let near = did_you_mean(name, known());
-        self.findings.mistake(place, message, near.unwrap_or_else(|| format!("known here: {list}")));
+        self.findings.mistake(MistakeCode::Coordinates, place, message, near.unwrap_or_else(|| format!("known here: {list}")));
         None
     }
 
@@ -134,7 +140,7 @@ impl Assembly<'_> {
     ) {
         if fixed[direction] {
             let message = format!("`{}` is fixed and has a spring", DIRECTIONS[direction]);
-            self.findings.mistake(place, message, "keep one of the two");
+            self.findings.mistake(MistakeCode::BothGiven, place, message, "keep one of the two");
         }
         springs[direction] = stiffness;
     }

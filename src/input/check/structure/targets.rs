@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::super::Assembly;
 use crate::input::source::Written;
 use crate::problem::glob::matches;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::texts::Texts;
 
@@ -74,6 +75,7 @@ impl Assembly<'_> {
             let (what, help) = (word(target), did_you_mean(text, names.iter().take(10_000)));
             let message = format!("pattern `{text}` matches no {what}");
             self.findings.mistake(
+                MistakeCode::UnknownItem,
                 written.place,
                 message,
                 help.unwrap_or_else(|| "`*` stands for any letters, `?` for one".into()),
@@ -92,7 +94,7 @@ impl Assembly<'_> {
         }
         let near = did_you_mean(&written.text, self.problem.ribs.names.iter().take(10_000));
         let help = near.unwrap_or_else(|| "declare it under [[ribs]] or in the table of ribs".into());
-        self.findings.mistake(written.place, format!("there is no rib `{}`", written.text), help);
+        self.findings.mistake(MistakeCode::UnknownItem, written.place, format!("there is no rib `{}`", written.text), help);
     }
 
     /// All targets of a list, each once, in the order of the list.

@@ -5,6 +5,7 @@ use crate::input::check::data::DataColumns;
 use crate::input::check::structure::tables::MemberColumns;
 use crate::input::findings::Findings;
 use crate::input::table::Table;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::sections::{self, is_dimension};
 
@@ -66,7 +67,12 @@ impl SectionColumns {
                 None if is_dimension(header) => columns.dimension(header).value = Some(at),
                 None if is_property(header) => {
                     let message = format!("`{header}` is a property of sections already");
-                    findings.mistake(table.place(1, at as u16), message, "choose another name for the datum");
+                    findings.mistake(
+                        MistakeCode::ReservedName,
+                        table.place(1, at as u16),
+                        message,
+                        "choose another name for the datum",
+                    );
                 }
                 None => columns.data.push((at, data.column(header))),
             }
@@ -97,7 +103,7 @@ impl RibColumns {
         if section.is_none() && (from.is_none() || to.is_none()) {
             let place = table.place(1, crate::input::source::Place::WHOLE_ROW);
             let message = "the table of ribs lacks the columns `from` and `to`, or `section`";
-            assembly.findings.mistake(place, message, "add them to the header");
+            assembly.findings.mistake(MistakeCode::Table, place, message, "add them to the header");
             return None;
         }
         let mut columns = RibColumns { name: name?, from, to, section, length: length?, member, law, data: Vec::new() };
@@ -123,7 +129,7 @@ fn required(table: &Table, name: &str, findings: &mut Findings) -> Option<usize>
         let place = table.place(1, crate::input::source::Place::WHOLE_ROW);
         let near = did_you_mean(name, table.headers.iter().map(String::as_str)).map(|_| "one header is nearly that");
         let help = near.unwrap_or("add it to the header");
-        findings.mistake(place, format!("the table lacks the column `{name}`"), help);
+        findings.mistake(MistakeCode::Table, place, format!("the table lacks the column `{name}`"), help);
     }
     found
 }
@@ -131,7 +137,7 @@ fn required(table: &Table, name: &str, findings: &mut Findings) -> Option<usize>
 fn unknown(table: &Table, at: usize, near: Option<String>, findings: &mut Findings) {
     let message = format!("unknown column `{}`", table.headers[at]);
     let rule = "a dotted header is part of a dimension: b.lower, b.upper, b.start";
-    findings.mistake(table.place(1, at as u16), message, near.unwrap_or_else(|| rule.into()));
+    findings.mistake(MistakeCode::Table, table.place(1, at as u16), message, near.unwrap_or_else(|| rule.into()));
 }
 
 fn dimensions() -> impl Iterator<Item = &'static str> {

@@ -5,6 +5,7 @@ use crate::expression::Span;
 use crate::expression::ast::{Ast, Collection};
 use crate::problem::evaluate::number;
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::names::Entity;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Column, Dimension, Formula, Property};
@@ -22,11 +23,16 @@ impl<'a> Resolver<'a, '_> {
             Some(Entity::Rib(r)) => self.rib(r, name, span),
             Some(entity) => {
                 let message = format!("`{item}` is a {} and has no `{name}`", entity.word());
-                self.mistake(span, message, Some("only sections and ribs have names of their own".into()))
+                self.mistake(
+                    MistakeCode::UnknownName,
+                    span,
+                    message,
+                    Some("only sections and ribs have names of their own".into()),
+                )
             }
             None if matches!(item, "from" | "to") => {
                 let help = "these are the ends of a rib: use it with for = \"ribs\" or in sum(ribs: …)";
-                self.mistake(span, format!("`{item}.{name}` outside a rib"), Some(help.into()))
+                self.mistake(MistakeCode::Scope, span, format!("`{item}.{name}` outside a rib"), Some(help.into()))
             }
             None => self.unknown(item, Span { start: span.start, end: span.start + item.len() }),
         }
@@ -67,7 +73,7 @@ impl<'a> Resolver<'a, '_> {
     pub(in super::super) fn listed_dimension(&mut self, parts: &[String], index: &Ast, span: Span) -> Option<Value> {
         let Formula::Constant(position) = self.scalar(index)? else {
             let help = "an index is a number or an expression in parameters";
-            return self.mistake(index.span, "this index is not constant", Some(help.into()));
+            return self.mistake(MistakeCode::NotConstant, index.span, "this index is not constant", Some(help.into()));
         };
         let mut parts = parts.to_vec();
         if let Some(last) = parts.last_mut() {
@@ -87,7 +93,7 @@ impl<'a> Resolver<'a, '_> {
                 Some(value) => value,
                 None => {
                     let help = "a rib offers length, volume, from.…, to.… and its data";
-                    self.mistake(span, format!("a rib has no `{name}`"), Some(help.into()))
+                    self.mistake(MistakeCode::UnknownName, span, format!("a rib has no `{name}`"), Some(help.into()))
                 }
             },
         }
@@ -104,7 +110,14 @@ impl<'a> Resolver<'a, '_> {
             (Some(Entity::Rib(r)), "from") => ribs.from.get(r as usize),
             (Some(Entity::Rib(r)), "to") => ribs.to.get(r as usize),
             (None, _) => return self.unknown(rib, Span { start: span.start, end: span.start + rib.len() }),
-            _ => return self.mistake(span, format!("`{rib}.{end}` has no `{name}`"), Some("as in haunch.from.b".into())),
+            _ => {
+                return self.mistake(
+                    MistakeCode::UnknownName,
+                    span,
+                    format!("`{rib}.{end}` has no `{name}`"),
+                    Some("as in haunch.from.b".into()),
+                );
+            }
         };
         self.section(*section?, name, span)
     }
@@ -122,7 +135,12 @@ impl<'a> Resolver<'a, '_> {
         self.report.used.push((collection, at as u32));
         Some(match number(&columns[at], item) {
             Some(value) => Some(Formula::Constant(value)),
-            None => self.mistake(span, format!("this item's data `{name}` is no number"), Some("give it one".into())),
+            None => self.mistake(
+                MistakeCode::TextAndNumber,
+                span,
+                format!("this item's data `{name}` is no number"),
+                Some("give it one".into()),
+            ),
         })
     }
 
@@ -130,6 +148,7 @@ impl<'a> Resolver<'a, '_> {
         let help = did_you_mean(name, known.iter().copied());
         let of = kind.map_or("the sections here have".to_owned(), |kind| format!("a section of kind {kind} has"));
         self.mistake(
+            MistakeCode::UnknownName,
             span,
             format!("{of} no `{name}`"),
             Some(help.unwrap_or_else(|| format!("known: {} and its data", known.join(", ")))),

@@ -4,6 +4,7 @@ use super::super::Resolver;
 use crate::expression::Span;
 use crate::expression::ast::{Ast, AstKind, Collection};
 use crate::problem::formula::Subject;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::{DIRECTIONS, Structure};
 
@@ -42,7 +43,12 @@ impl<'a> Arguments<'a> {
 impl<'a> Resolver<'a, '_> {
     pub(super) fn case(&mut self, structure: &Structure, arguments: &mut Arguments) -> Option<u32> {
         let Some(first) = arguments.list.pop_front() else {
-            return self.mistake(arguments.span, "no case is named", Some("give a load case or a combination first".into()));
+            return self.mistake(
+                MistakeCode::Response,
+                arguments.span,
+                "no case is named",
+                Some("give a load case or a combination first".into()),
+            );
         };
         if let Some(word) = first.word {
             if let (Some(case), "case") = (self.world.chosen.case, word) {
@@ -62,7 +68,7 @@ impl<'a> Resolver<'a, '_> {
             Some(word) => format!("there is no case or combination `{word}`"),
             None => "this is no case".into(),
         };
-        self.mistake(first.ast.span, message, Some(help))
+        self.mistake(MistakeCode::UnknownItem, first.ast.span, message, Some(help))
     }
 
     pub(super) fn node(&mut self, structure: &Structure, name: &str, arguments: &mut Arguments) -> Option<Subject> {
@@ -76,12 +82,17 @@ impl<'a> Resolver<'a, '_> {
             return Some(Subject::Node(node));
         }
         let Some(next) = arguments.list.front() else {
-            return self.mistake(arguments.span, format!("`{name}` names no node"), Some(shape(name).into()));
+            return self.mistake(
+                MistakeCode::Response,
+                arguments.span,
+                format!("`{name}` names no node"),
+                Some(shape(name).into()),
+            );
         };
         let known = structure.nodes.names.iter().take(10_000);
         let help = next.word.and_then(|word| did_you_mean(word, known));
         let message = next.word.map_or("this is no node".into(), |word| format!("there is no node `{word}`"));
-        self.mistake(next.ast.span, message, Some(help.unwrap_or_else(|| shape(name).into())))
+        self.mistake(MistakeCode::UnknownItem, next.ast.span, message, Some(help.unwrap_or_else(|| shape(name).into())))
     }
 
     pub(super) fn direction(&mut self, structure: &Structure, name: &str, arguments: &mut Arguments) -> Option<u8> {
@@ -100,6 +111,7 @@ impl<'a> Resolver<'a, '_> {
                 let rib = &problem.ribs.names[rib as usize];
                 let help = "give it `start` and `end`";
                 return self.mistake(
+                    MistakeCode::NoStructure,
                     arguments.span,
                     format!("rib `{rib}` has no nodes, so it is no part of the structure"),
                     Some(help.into()),
@@ -116,6 +128,7 @@ impl<'a> Resolver<'a, '_> {
                         let rib = &problem.ribs.names[rib as usize];
                         let help = "choose others by `only` or `where`, or give it `start` and `end`";
                         self.mistake(
+                            MistakeCode::NoStructure,
                             arguments.span,
                             format!("rib `{rib}` has no nodes, so `{name}` has no value there"),
                             Some(help.into()),
@@ -132,7 +145,12 @@ impl<'a> Resolver<'a, '_> {
                     }
                     None => (arguments.span, format!("`{name}` names no rib"), None),
                 };
-                self.mistake(span, message, Some(help.unwrap_or_else(|| format!("{}, or for = \"ribs\"", shape(name)))))
+                self.mistake(
+                    MistakeCode::UnknownItem,
+                    span,
+                    message,
+                    Some(help.unwrap_or_else(|| format!("{}, or for = \"ribs\"", shape(name)))),
+                )
             }
         }
     }
@@ -148,7 +166,7 @@ impl<'a> Resolver<'a, '_> {
             return Some(found);
         }
         let span = arguments.list.front().map_or(arguments.span, |next| next.ast.span);
-        self.mistake(span, format!("`{name}` needs {what}"), Some(format!("as in {}", shape(name))))
+        self.mistake(MistakeCode::Response, span, format!("`{name}` needs {what}"), Some(format!("as in {}", shape(name))))
     }
 }
 

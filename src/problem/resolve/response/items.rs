@@ -5,6 +5,7 @@ use crate::expression::Span;
 use crate::expression::ast::Collection;
 use crate::expression::operators::{Binary, Fold};
 use crate::problem::formula::{Members, Response, Subject, What};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::{Formula, Property};
 use std::sync::Arc;
@@ -15,7 +16,7 @@ impl<'a> Resolver<'a, '_> {
         let offered = self.scope.is_some_and(|scope| scope.offers(name));
         if !offered {
             let help = "a dimension or property of the sections at both ends, as at.h or at.A";
-            return self.mistake(span, format!("the sections here have no `{name}`"), Some(help.into()));
+            return self.mistake(MistakeCode::Response, span, format!("the sections here have no `{name}`"), Some(help.into()));
         }
         let station = self.open_station(span)?;
         Some(Formula::AtProperty(station, Property(Arc::from(name))))
@@ -29,7 +30,7 @@ impl<'a> Resolver<'a, '_> {
         if let Some(member) = undefined {
             let material = &structure.materials[member.material as usize].name;
             let help = format!("give it: density, in material `{material}`");
-            return self.mistake(span, format!("`{name}` needs the density of `{material}`"), Some(help));
+            return self.mistake(MistakeCode::Material, span, format!("`{name}` needs the density of `{material}`"), Some(help));
         }
         let one = Formula::Response(Arc::new(Response { set: 0, subject: Subject::Own, what: What::Mass }));
         let mass = match own {
@@ -69,7 +70,12 @@ impl<'a> Resolver<'a, '_> {
             let material = &structure.materials[material as usize];
             let names = material.data.iter().map(|(name, _)| &**name).chain(["E", "G", "nu", "density", "alpha"]);
             let help = did_you_mean(name, names).unwrap_or_else(|| format!("add it: {name} = … in [materials]"));
-            return Some(self.mistake(span, format!("material `{}` has no number `{name}`", material.name), Some(help)));
+            return Some(self.mistake(
+                MistakeCode::UnknownName,
+                span,
+                format!("material `{}` has no number `{name}`", material.name),
+                Some(help),
+            ));
         }
         Some(Some(Formula::OwnMaterial(Arc::from(name))))
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::super::Resolver;
 use super::arguments::{Arguments, shape};
 use crate::problem::Formula;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::modes::Pencil;
 use crate::problem::structure::Structure;
 
@@ -19,6 +20,7 @@ impl<'a> Resolver<'a, '_> {
             (None, Pencil::Buckling(_)) => 1.0,
             (None, Pencil::Vibration) => {
                 return self.mistake(
+                    MistakeCode::Response,
                     arguments.span,
                     "`frequency` needs the number of a mode",
                     Some(format!("as in {}", shape(name))),
@@ -28,7 +30,7 @@ impl<'a> Resolver<'a, '_> {
                 Formula::Constant(number) if (1.0..=MOST).contains(&number) && number.fract() == 0.0 => number,
                 _ => {
                     let help = "1 for the lowest, 2 for the next: a whole number".to_string();
-                    return self.mistake(next.ast.span, "this is no number of a mode", Some(help));
+                    return self.mistake(MistakeCode::Response, next.ast.span, "this is no number of a mode", Some(help));
                 }
             },
         };
@@ -39,7 +41,12 @@ impl<'a> Resolver<'a, '_> {
         {
             let material = &structure.materials[lacking.material as usize].name;
             let help = format!("give it: density, in material `{material}` (0 where its mass does not count)");
-            return self.mistake(arguments.span, format!("`frequency` needs the density of `{material}`"), Some(help));
+            return self.mistake(
+                MistakeCode::Material,
+                arguments.span,
+                format!("`frequency` needs the density of `{material}`"),
+                Some(help),
+            );
         }
         Some(Formula::Response(Arc::new(pencil.response(number as u32))))
     }

@@ -5,6 +5,7 @@ use super::arguments::Arguments;
 use crate::expression::Span;
 use crate::expression::operators::{Binary, Unary};
 use crate::problem::formula::{Response, Subject, What};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::Structure;
 use crate::problem::{Formula, Problem};
@@ -26,7 +27,12 @@ impl<'a> Resolver<'a, '_> {
         {
             let kind = sections::kind_of(without).name();
             let message = format!("sections of kind {kind} know no shear stresses, and `vonmises` needs them");
-            return self.mistake(arguments.span, message, Some("limit stress(…) instead, or choose another kind".into()));
+            return self.mistake(
+                MistakeCode::Response,
+                arguments.span,
+                message,
+                Some("limit stress(…) instead, or choose another kind".into()),
+            );
         }
         self.report.open.sign = true;
         let sign = if self.world.chosen.sign == 0.0 { 1.0 } else { self.world.chosen.sign };
@@ -49,7 +55,12 @@ impl<'a> Resolver<'a, '_> {
             .and_then(|next| next.word)
             .filter(|word| point(word).is_none() && self.world.names.find(self.world.problem, word).is_none());
         if let (Some(word), Some(next)) = (unknown, arguments.list.front()) {
-            return self.mistake(next.ast.span, format!("`{word}` is no point of the section"), Some(help(Some(word))));
+            return self.mistake(
+                MistakeCode::Response,
+                next.ast.span,
+                format!("`{word}` is no point of the section"),
+                Some(help(Some(word))),
+            );
         }
         let is_point = arguments.list.front().and_then(|next| next.word).is_some_and(|word| point(word).is_some());
         let station = if is_point { self.open_station(arguments.span)? } else { self.station(arguments)? };
@@ -58,7 +69,12 @@ impl<'a> Resolver<'a, '_> {
             None if arguments.list.is_empty() => self.open_point(name, forms, arguments.span)?,
             None => {
                 let next = arguments.list.pop_front()?;
-                return self.mistake(next.ast.span, "this is no point of the section", Some(help(next.word)));
+                return self.mistake(
+                    MistakeCode::Response,
+                    next.ast.span,
+                    "this is no point of the section",
+                    Some(help(next.word)),
+                );
             }
         };
         Some((station, point))
@@ -68,11 +84,21 @@ impl<'a> Resolver<'a, '_> {
     pub(super) fn station(&mut self, arguments: &mut Arguments) -> Option<f64> {
         let Some(next) = arguments.list.pop_front() else { return self.open_station(arguments.span) };
         let Formula::Constant(at) = self.scalar(next.ast)? else {
-            return self.mistake(next.ast.span, "this station is not constant", Some("a fraction of the rib's length".into()));
+            return self.mistake(
+                MistakeCode::NotConstant,
+                next.ast.span,
+                "this station is not constant",
+                Some("a fraction of the rib's length".into()),
+            );
         };
         if !(0.0..=1.0).contains(&at) {
             let help = "0 is the rib's start, 1 its end";
-            return self.mistake(next.ast.span, format!("station {at} lies outside the rib"), Some(help.into()));
+            return self.mistake(
+                MistakeCode::Response,
+                next.ast.span,
+                format!("station {at} lies outside the rib"),
+                Some(help.into()),
+            );
         }
         Some(at)
     }
@@ -82,6 +108,7 @@ impl<'a> Resolver<'a, '_> {
         match self.world.chosen.station {
             Some(station) => Some(station),
             None => self.mistake(
+                MistakeCode::Response,
                 span,
                 "no station is named",
                 Some("only a constraint is spread over all stations: give a fraction of the rib's length".into()),
@@ -98,6 +125,7 @@ impl<'a> Resolver<'a, '_> {
         match self.world.chosen.point {
             Some(point) => Some(Arc::from(point)),
             None => self.mistake(
+                MistakeCode::Response,
                 span,
                 "no point of the section is named",
                 Some("only a constraint is spread over all points: name one, as top".into()),

@@ -5,6 +5,7 @@ use crate::input::declaration::Name;
 use crate::input::declaration::structure::LoadEntry;
 use crate::input::fields::Scalar;
 use crate::input::source::{Place, Written};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::Axes;
 use crate::problem::words::brief;
 
@@ -95,12 +96,12 @@ impl Assembly<'_> {
             [] if entry.acts => None,
             [] => {
                 let help = "known: force, moment, self_weight, temperature, gradient, pretension, displacement";
-                self.findings.mistake(entry.place, "this load says nothing that acts", help);
+                self.findings.mistake(MistakeCode::Load, entry.place, "this load says nothing that acts", help);
                 None
             }
             [(first, _), (second, place), ..] => {
                 let message = format!("{first} and {second} in one load");
-                self.findings.mistake(*place, message, "write a [[loads]] of its own for each");
+                self.findings.mistake(MistakeCode::BothGiven, *place, message, "write a [[loads]] of its own for each");
                 None
             }
         }
@@ -110,7 +111,12 @@ impl Assembly<'_> {
         let along = [&entry.from, &entry.to, &entry.at].into_iter().flatten().map(Scalar::place);
         let along = along.chain(entry.force_end.as_ref().map(|vector| vector.place));
         for place in along.chain(entry.axes.as_ref().map(|axes| axes.place)) {
-            self.findings.mistake(place, "this belongs to a load on ribs", "leave it out: forces at nodes have global axes");
+            self.findings.mistake(
+                MistakeCode::Load,
+                place,
+                "this belongs to a load on ribs",
+                "leave it out: forces at nodes have global axes",
+            );
         }
         let force = entry.force.as_ref().map_or(Some([0.0; 3]), |force| self.along(force, "force"));
         let moment = entry.moment.as_ref().map_or(Some([0.0; 3]), |moment| self.about(moment, false));
@@ -132,7 +138,12 @@ impl Assembly<'_> {
             return self.point(entry, axes, at, force, moment);
         }
         if let Some(moment) = &entry.moment {
-            self.findings.mistake(moment.place, "a moment on a rib needs `at`", "add at = …, a fraction of the rib's length");
+            self.findings.mistake(
+                MistakeCode::Load,
+                moment.place,
+                "a moment on a rib needs `at`",
+                "add at = …, a fraction of the rib's length",
+            );
             return None;
         }
         let force = force?;
@@ -141,7 +152,12 @@ impl Assembly<'_> {
         let (from, to) = (from?, to?);
         if from >= to {
             let place = entry.to.as_ref().or(entry.from.as_ref()).map_or(entry.place, Scalar::place);
-            self.findings.mistake(place, format!("a load from {from} to {to}"), "`from` comes before `to`");
+            self.findings.mistake(
+                MistakeCode::OutOfRange,
+                place,
+                format!("a load from {from} to {to}"),
+                "`from` comes before `to`",
+            );
             return None;
         }
         Some(Effect::Distributed { axes, force, force_end: force_end.unwrap_or(force), from, to })
@@ -157,7 +173,12 @@ impl Assembly<'_> {
     ) -> Option<Effect> {
         let along = [&entry.from, &entry.to].into_iter().flatten().map(Scalar::place);
         for place in along.chain(entry.force_end.as_ref().map(|vector| vector.place)) {
-            self.findings.mistake(place, "a force at a point has no extent", "keep either `at` or `from`, `to`, `force_end`");
+            self.findings.mistake(
+                MistakeCode::BothGiven,
+                place,
+                "a force at a point has no extent",
+                "keep either `at` or `from`, `to`, `force_end`",
+            );
         }
         let at = self.fraction(at, "at")?;
         Some(Effect::Point { axes, force: force.unwrap_or_default(), moment: moment.unwrap_or_default(), at })
@@ -179,7 +200,12 @@ impl Assembly<'_> {
             return Some(value);
         }
         let message = format!("`{key}` cannot be {}", brief(value));
-        self.findings.mistake(scalar.place(), message, "expected a fraction of the rib's length, from 0 to 1");
+        self.findings.mistake(
+            MistakeCode::OutOfRange,
+            scalar.place(),
+            message,
+            "expected a fraction of the rib's length, from 0 to 1",
+        );
         None
     }
 

@@ -10,6 +10,7 @@ use crate::input::source::Written;
 use crate::input::table::{Row, Table, Tables};
 use crate::problem::Cells;
 use crate::problem::glob::matches;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::structure::{Axes, Plane};
 
@@ -52,7 +53,7 @@ impl Assembly<'_> {
         if node.or(rib).or(line).is_none() {
             let place = table.place(1, crate::input::source::Place::WHOLE_ROW);
             let message = "the table lacks a column `node`, `rib` or `line`";
-            self.findings.mistake(place, message, "add one of them to the header");
+            self.findings.mistake(MistakeCode::Table, place, message, "add one of them to the header");
             return None;
         }
         Some(Columns {
@@ -70,7 +71,7 @@ impl Assembly<'_> {
 
     fn load_row(&mut self, row: &Row, columns: &Columns) {
         if row.field(columns.case).is_empty() {
-            self.findings.mistake(row.place(columns.case), "this load has no case", "name its load case");
+            self.findings.mistake(MistakeCode::EmptyCell, row.place(columns.case), "this load has no case", "name its load case");
             return;
         }
         let case = self.case(row.field(columns.case), row.place(columns.case));
@@ -87,7 +88,12 @@ impl Assembly<'_> {
             }
             _ => {
                 let message = "this load acts on nothing, or on two things";
-                self.findings.mistake(row.place(columns.case), message, "fill one of the cells `node`, `rib` and `line`");
+                self.findings.mistake(
+                    MistakeCode::BothGiven,
+                    row.place(columns.case),
+                    message,
+                    "fill one of the cells `node`, `rib` and `line`",
+                );
                 return;
             }
         };
@@ -100,7 +106,7 @@ impl Assembly<'_> {
     fn nodal_cells(&mut self, row: &Row, columns: &Columns) -> Option<Effect> {
         for at in columns.states.into_iter().chain([columns.at, columns.axes]).filter_map(|at| filled(row, at)) {
             if row.field(at) != "global" {
-                self.findings.mistake(row.place(at), "this belongs to a load on ribs", "leave the cell empty");
+                self.findings.mistake(MistakeCode::Load, row.place(at), "this belongs to a load on ribs", "leave the cell empty");
             }
         }
         let force = self.components(row, columns.force, self.building.structure.plane.axes(), "a force");
@@ -128,7 +134,12 @@ impl Assembly<'_> {
         }
         if moment != [0.0; 3] {
             let place = row.place(columns.moment.into_iter().flatten().next()?);
-            self.findings.mistake(place, "a moment on a rib needs `at`", "add a column `at`, a fraction of the rib's length");
+            self.findings.mistake(
+                MistakeCode::Load,
+                place,
+                "a moment on a rib needs `at`",
+                "add a column `at`, a fraction of the rib's length",
+            );
             return None;
         }
         Some(Effect::Distributed { axes, force, force_end: force, from: 0.0, to: 1.0 })
@@ -141,7 +152,12 @@ impl Assembly<'_> {
         let count = given.iter().flatten().count() + usize::from(forces.is_some());
         let Some(at) = given.iter().flatten().copied().next() else { return Some(None) };
         if count > 1 {
-            self.findings.mistake(row.place(at), "a load of two kinds", "write a row of its own for each");
+            self.findings.mistake(
+                MistakeCode::BothGiven,
+                row.place(at),
+                "a load of two kinds",
+                "write a row of its own for each",
+            );
             return None;
         }
         let value = scalar(row, at).and_then(|scalar| self.finite(&scalar))?;
@@ -180,7 +196,7 @@ impl Assembly<'_> {
     fn something(&mut self, row: &Row, columns: &Columns, force: [f64; 3], moment: [f64; 3]) -> Option<([f64; 3], [f64; 3])> {
         if columns.force.into_iter().chain(columns.moment).all(|at| filled(row, at).is_none()) {
             let help = "fill a cell of fx, fy, fz, mx, my, mz";
-            self.findings.mistake(row.place(columns.case), "this load says nothing that acts", help);
+            self.findings.mistake(MistakeCode::Load, row.place(columns.case), "this load says nothing that acts", help);
             return None;
         }
         Some((force, moment))
@@ -200,7 +216,7 @@ impl Assembly<'_> {
         if found.is_empty() {
             let known = self.building.lines.iter().flatten().map(|(line, _)| &**line);
             let help = did_you_mean(&written.text, known).unwrap_or_else(|| "lines are named by the ribs' datum `line`".into());
-            self.findings.mistake(written.place, format!("there is no line `{}`", written.text), help);
+            self.findings.mistake(MistakeCode::UnknownItem, written.place, format!("there is no line `{}`", written.text), help);
         }
         found
     }

@@ -5,6 +5,7 @@ use super::{filled, find, scalar};
 use crate::input::declaration::structure::MemberEntry;
 use crate::input::source::Written;
 use crate::input::table::{Row, Table};
+use crate::problem::mistake_code::MistakeCode;
 
 /// They are these where the table has both `start` and `end`; else columns of these names are data.
 pub(in crate::input::check) struct MemberColumns {
@@ -79,6 +80,7 @@ impl Assembly<'_> {
         let word = row.field(at).to_lowercase();
         if !known.contains(&word.as_str()) {
             self.findings.mistake(
+                MistakeCode::WrongType,
                 row.place(at),
                 format!("`{}` is neither true nor false", row.field(at)),
                 "expected true or false",

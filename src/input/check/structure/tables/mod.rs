@@ -13,6 +13,7 @@ use crate::input::fields::Scalar;
 use crate::input::findings::Findings;
 use crate::input::source::Place;
 use crate::input::table::{Row, Table};
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
 use crate::problem::words::brief;
 
@@ -44,7 +45,12 @@ fn require(table: &Table, name: &str, findings: &mut Findings) -> Option<usize> 
             Some(header) => format!("rename `{header}`?"),
             None => "add it to the header".to_owned(),
         };
-        findings.mistake(table.place(1, Place::WHOLE_ROW), format!("the table lacks the column `{name}`"), help);
+        findings.mistake(
+            MistakeCode::Table,
+            table.place(1, Place::WHOLE_ROW),
+            format!("the table lacks the column `{name}`"),
+            help,
+        );
     }
     found
 }
@@ -55,7 +61,7 @@ fn refuse_others(table: &Table, known: &[&str], findings: &mut Findings) {
         if !header.is_empty() && !known.contains(&header.as_str()) {
             let near = did_you_mean(header, known.iter().copied());
             let help = near.unwrap_or_else(|| format!("known: {}", known.join(", ")));
-            findings.mistake(table.place(1, at as u16), format!("unknown column `{header}`"), help);
+            findings.mistake(MistakeCode::Table, table.place(1, at as u16), format!("unknown column `{header}`"), help);
         }
     }
 }
@@ -81,7 +87,7 @@ impl Assembly<'_> {
                 let value = row.number(at).map_or_else(|| row.field(at).to_owned(), brief);
                 let space = self.building.structure.plane.name().map_or("space".into(), |name| format!("the plane \"{name}\""));
                 let message = format!("{what}: {value} along an axis that is not in {space}");
-                self.findings.mistake(row.place(at), message, "leave the cell empty");
+                self.findings.mistake(MistakeCode::Coordinates, row.place(at), message, "leave the cell empty");
             }
         }
     }

@@ -9,6 +9,7 @@ use crate::input::declaration::Name;
 use crate::input::source::Written;
 use crate::input::table::{Row, Table, Tables};
 use crate::problem::Dimension;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::structure::DIRECTIONS;
 
 /// Columns of the table.
@@ -50,7 +51,7 @@ impl Assembly<'_> {
             }
             if header.contains('.') {
                 let help = "nodes have no dimensions; choose another name for the datum";
-                self.findings.mistake(table.place(1, at as u16), format!("unknown column `{header}`"), help);
+                self.findings.mistake(MistakeCode::Table, table.place(1, at as u16), format!("unknown column `{header}`"), help);
             } else {
                 columns.data.push((at, self.building.node_data.column(header)));
             }
@@ -75,7 +76,7 @@ impl Assembly<'_> {
             let at = columns.coordinates[axis]?;
             if filled(row, Some(at)).is_none() {
                 let message = format!("node `{}` has no {}", name.text, DIRECTIONS[axis]);
-                self.findings.mistake(row.place(at), message, "fill the cell");
+                self.findings.mistake(MistakeCode::EmptyCell, row.place(at), message, "fill the cell");
                 return None;
             }
             position[axis] = self.quantity(&scalar(row, at)?)?;

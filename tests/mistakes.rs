@@ -1,0 +1,80 @@
+//! `docs/mistakes.md`, which `ribopt explain` prints: every kind of mistake, an example that has it, and one that has not.
+
+use std::fs;
+use std::path::Path;
+
+use ribopt::input::{Input, Mistakes, read_watched};
+use ribopt::problem::mistake_code::MistakeCode;
+
+/// The fenced blocks of a part: what stands behind the fence, and the text.
+fn blocks(text: &str) -> Vec<(&str, &str)> {
+    text.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n')).collect()
+}
+
+/// Reads an example with the tables beside it, and with what it says after `--set`.
+fn read(tables: &[(&str, &str)], text: &str) -> Result<Input, Mistakes> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, table) in tables {
+        fs::write(folder.path().join(name), table).unwrap();
+    }
+    let file = folder.path().join("rib.toml");
+    fs::write(&file, text).unwrap();
+    let overrides: Vec<String> =
+        text.lines().filter_map(|line| line.split_once("--set ")).map(|(_, set)| set.to_owned()).collect();
+    read_watched(&file, &overrides, &|_| {})
+}
+
+/// What `ribopt explain` prints of a code.
+fn explained(code: MistakeCode) -> String {
+    ribopt::input::explain(Some(code.name())).unwrap_or_else(|message| panic!("{message}"))
+}
+
+/// Both examples of a code: tables and text.
+fn examples(explanation: &str) -> [Result<Input, Mistakes>; 2] {
+    let (_, examples) = explanation.split_once("Wrong:").expect("an example that is wrong");
+    let (wrong, right) = examples.split_once("Right:").expect("an example that is right");
+    [wrong, right].map(|example| {
+        let blocks = blocks(example);
+        let tables: Vec<(&str, &str)> =
+            blocks.iter().filter_map(|(kind, text)| Some((kind.strip_prefix("csv ")?, *text))).collect();
+        let (_, text) = blocks.iter().find(|(kind, _)| *kind == "toml").expect("a problem file");
+        read(&tables, text)
+    })
+}
+
+#[test]
+fn every_mistake_is_explained_and_its_examples_are_wrong_and_right() {
+    let mut failures = Vec::new();
+    for &code in MistakeCode::ALL {
+        let [wrong, right] = examples(&explained(code));
+        match wrong {
+            Ok(_) => failures.push(format!("{code}: the wrong example is right")),
+            Err(mistakes) if mistakes.list.iter().any(|mistake| mistake.code == Some(code)) => {}
+            Err(mistakes) => failures.push(format!("{code}: the wrong example has another mistake\n{mistakes}")),
+        }
+        match right {
+            Err(mistakes) => failures.push(format!("{code}: the right example is wrong\n{mistakes}")),
+            Ok(input) if input.warnings.is_empty() => {}
+            Ok(input) => failures.push(format!("{code}: the right example is warned of: {}", input.warnings[0].message)),
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn the_page_explains_the_codes_there_are_in_their_order() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/mistakes.md")).unwrap();
+    let headings: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+    assert_eq!(headings, MistakeCode::ALL.iter().map(|code| code.name()).collect::<Vec<_>>());
+}
+
+#[test]
+fn every_mistake_of_every_bad_file_has_a_code() {
+    for entry in fs::read_dir("tests/bad").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let mistakes = ribopt::input::read(&path).expect_err("a bad file");
+            assert!(mistakes.list.iter().all(|mistake| mistake.code.is_some()), "{}", path.display());
+        }
+    }
+}
