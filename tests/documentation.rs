@@ -20,7 +20,7 @@ fn root() -> &'static Path {
 fn texts() -> Vec<(PathBuf, String)> {
     let (mut found, mut open) = (Vec::new(), PLACES.iter().map(|place| root().join(place)).collect::<Vec<_>>());
     while let Some(path) = open.pop() {
-        if path.is_dir() && !path.ends_with("target") {
+        if path.is_dir() && !path.ends_with("target") && !path.ends_with("node_modules") {
             open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
         } else if path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending == *known)) {
             found.push((path.clone(), fs::read_to_string(path).unwrap_or_default()));

@@ -41,11 +41,12 @@ pub enum Command {
     Analyse(Analyse),
     /// The certificate for a point found elsewhere
     Verify(Verify),
-    /// One HTML page about a run, from the files it left: verdict, what governs, utilisation, sizes, pictures, input
+    /// One HTML page about a run or several, from the files they left: verdict, what governs, utilisation, sizes, pictures, input
     Report {
-        /// The folder of a run, or its result.json
-        result: PathBuf,
-        /// The page; default: report.html beside the result
+        /// The folders of runs, or their result.json
+        #[arg(required = true, value_name = "RESULT")]
+        results: Vec<PathBuf>,
+        /// The page; default, of one run: report.html beside the result
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
@@ -62,6 +63,11 @@ pub enum Command {
     Mesh {
         #[command(subcommand)]
         stage: Stage,
+    },
+    /// What a mistake means, by the code told with it, with an example that is wrong and one that is right
+    Explain {
+        /// The code, as in mistake[unknown-key]; without it, all of them
+        code: Option<String>,
     },
     /// JSON Schema of the problem file, for completion in editors
     Schema,

@@ -11,7 +11,7 @@ use ribopt::report::number::short;
 use ribopt::report::text::count;
 use ribopt::report::{result, summary};
 use ribopt::run::network::{self, Network};
-use ribopt::run::report::report;
+use ribopt::run::report::{NETWORK, report};
 use ribopt::run::solve::{Request, Solved, solve};
 use ribopt::run::{RunError, Subject, Watcher, choice};
 
@@ -54,7 +54,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
         draw(arguments, &subject, &solved, &network)?;
     }
     if arguments.report {
-        let written = report(solved.folder(), None)?;
+        let written = report(&[solved.folder().to_path_buf()], None)?;
         if !(arguments.json || arguments.quiet) {
             output::print(|out| writeln!(out, "report: {}", written.display()))?;
         }
@@ -119,6 +119,9 @@ fn draw(arguments: &Solve, subject: &Subject, solved: &Solved, network: &Network
         let out = solved.folder().join("network.svg");
         sized.write_picture(&subject.about, &out).map_err(RunError::from)?;
         lines.push(format!("picture: {}", out.display()));
+    }
+    if arguments.report && !sized.write_view(&solved.folder().join(NETWORK)).map_err(RunError::from)? {
+        lines.push("the report shows no view in space: there are too many ribs for a page".into());
     }
     match arguments.json || arguments.quiet {
         true => Ok(()),

@@ -17,6 +17,7 @@ pub mod performance_profile;
 pub mod pictures;
 pub mod result;
 pub mod sizes;
+pub mod space;
 pub mod structure;
 pub mod summary;
 pub mod tables;

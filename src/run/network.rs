@@ -19,6 +19,7 @@ use crate::model::EvaluationError;
 use crate::problem::Problem;
 use crate::report::About;
 use crate::report::pictures::{self, Load};
+use crate::report::space;
 use crate::report::structure::MemberPlace;
 
 /// The table's name.
@@ -144,6 +145,8 @@ pub struct Sized {
     pub ribs: Vec<SizedRib>,
     /// What uses each of them most.
     pub loads: Vec<Load>,
+    /// The names of their sections.
+    pub sections: Vec<String>,
     /// What their tags are called.
     pub tag_names: Vec<String>,
 }
@@ -165,6 +168,19 @@ impl Sized {
         let picture = pictures::network(&self.ribs, &self.loads, about);
         files::whole::write(out, |file| file.write_all(picture.as_bytes()))
             .map_err(|cause| NetworkFailure::Picture { path: out.into(), cause })
+    }
+
+    /// Writes what a page shows in space (JSON); nothing where there are too many ribs for a page, which comes back as false.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_view(&self, out: &Path) -> Result<bool, NetworkFailure> {
+        if self.ribs.len() > space::MOST_RIBS {
+            return Ok(false);
+        }
+        files::whole::write(out, |file| space::write(&self.ribs, &self.sections, &self.loads, file))
+            .map_err(|cause| NetworkFailure::Picture { path: out.into(), cause })?;
+        Ok(true)
     }
 }
 

@@ -14,27 +14,44 @@ use crate::report::result::FORMAT;
 /// The page's file beside a run's other files.
 pub const PAGE: &str = "report.html";
 
+/// The ribs in space, for the page.
+pub const NETWORK: &str = "network.json";
+
 /// Tables the page shows.
 const TABLES: [&str; 5] = ["variables.csv", "sizes.csv", "volumes.csv", "limits.csv", "utilisation.csv"];
 
-/// Writes the page about the run in a folder (or whose `result.json` is given) to `out`, or beside the run's files; brings back where it is.
+/// Writes the page about the runs in some folders (or whose `result.json` are given) to `out`, or beside the files of the one run; brings
+/// back where it is.
 ///
 /// # Errors
-/// No result there, an input where the page would stand, or a file that cannot be written.
-pub fn report(given: &Path, out: Option<&Path>) -> Result<PathBuf, RunError> {
-    let (folder, file) = match given.is_dir() {
-        true => (given.to_path_buf(), given.join("result.json")),
-        false => (given.parent().unwrap_or(Path::new("")).to_path_buf(), given.to_path_buf()),
+/// No result there, several runs and no place for their page, an input where the page would stand, or a file that cannot be written.
+pub fn report(given: &[PathBuf], out: Option<&Path>) -> Result<PathBuf, RunError> {
+    let places: Vec<(PathBuf, PathBuf)> = given.iter().map(|given| folder_and_file(given)).collect();
+    let out = match (out, &places[..]) {
+        (Some(out), _) => out.to_path_buf(),
+        (None, [(folder, _)]) => folder.join(PAGE),
+        (None, _) => return Err(RunError::Choice("a page about several runs needs a place: add -o report.html".into())),
     };
-    let out = out.map_or_else(|| folder.join(PAGE), Path::to_path_buf);
-    let (left, read) = left(&folder, &file)?;
+    let (mut lefts, mut read) = (Vec::new(), Vec::new());
+    for (folder, file) in &places {
+        let (left, files) = left(folder, file)?;
+        lefts.push(left);
+        read.extend(files);
+    }
     Inputs::new(read).spare([out.clone()])?;
-    let html = page(&left);
+    let html = page(&lefts);
     let mut set = whole::Set::default();
     let unwritable = |path: &Path, cause: std::io::Error| RunError::Choice(format!("cannot write {}: {cause}", path.display()));
     set.write(&out, |to| to.write_all(html.as_bytes())).map_err(|cause| unwritable(&out, cause))?;
     set.swap().map_err(|(path, cause)| unwritable(&path, cause))?;
     Ok(out)
+}
+
+fn folder_and_file(given: &Path) -> (PathBuf, PathBuf) {
+    match given.is_dir() {
+        true => (given.to_path_buf(), given.join("result.json")),
+        false => (given.parent().unwrap_or(Path::new("")).to_path_buf(), given.to_path_buf()),
+    }
 }
 
 /// What the folder holds, and every file that was read.
@@ -51,11 +68,13 @@ fn left(folder: &Path, file: &Path) -> Result<(Left, Vec<PathBuf>), RunError> {
     let pictures = fs::read_dir(folder).map(|entries| entries.flatten().map(|entry| entry.file_name()).collect::<Vec<_>>());
     let pictures = pictures.unwrap_or_default().into_iter().filter_map(|name| name.into_string().ok());
     let pictures: Vec<_> = pictures.filter(|name| name.ends_with(".svg")).filter_map(|name| beside(&name)).collect();
+    let network = beside(NETWORK).map(|(_, text)| text);
     let tables = TABLES.iter().filter_map(|name| beside(name)).collect();
     let (inputs, unchanged) = inputs(&result);
     let shown = TABLES.iter().map(|name| folder.join(name)).chain(pictures.iter().map(|(name, _)| folder.join(name)));
-    let read = inputs.iter().map(|(name, _)| name.into()).chain(shown).chain([file.to_path_buf()]).collect();
-    Ok((Left { result, tables, pictures, inputs, unchanged }, read))
+    let read =
+        inputs.iter().map(|(name, _)| name.into()).chain(shown).chain([file.to_path_buf(), folder.join(NETWORK)]).collect();
+    Ok((Left { result, tables, pictures, network, inputs, unchanged }, read))
 }
 
 /// The problem file and its tables, and whether they are those that were solved.

@@ -35,7 +35,11 @@ pub(super) fn size(subject: &Subject, x: &[f64], places: &[RibGeometry]) -> Resu
     let of_ends = dimensions.iter().flat_map(|name| ["from", "to"].map(|end| format!("{end}.{name}")));
     let tag_names =
         of_ends.chain(["length".into(), "volume".into()]).chain(responses.iter().map(|(name, _)| name.clone())).collect();
-    Ok(Sized { ribs, loads, tag_names })
+    let name = |s: u32| &problem.sections.names[s as usize];
+    let of_rib =
+        |(&from, &to): (&u32, &u32)| if from == to { name(from).to_owned() } else { format!("{} – {}", name(from), name(to)) };
+    let sections = problem.ribs.from.iter().zip(&problem.ribs.to).map(of_rib).collect();
+    Ok(Sized { ribs, loads, sections, tag_names })
 }
 
 /// The problem with its variables' starts at x, where [`Evaluation`] looks.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::Value;
 
 use super::Left;
-use super::tables::{MOST_ROWS, left_out, shown, table};
+use super::tables::{Csv, MOST_ROWS, left_out, shown, table};
 
 /// Limits that are shown, the costliest first.
 const MOST_LIMITS: usize = 50;
@@ -40,6 +40,14 @@ fn row(entry: &Value, values: Option<&Value>) -> Option<(f64, Vec<String>)> {
     Some((per_cent.unwrap_or(0.0).abs(), row))
 }
 
+/// The rib a row is about.
+fn rib_of<'r>(csv: &Csv, row: &'r [String]) -> Option<&'r str> {
+    match csv.column("rib") {
+        Some(_) => Some(csv.cell(row, "rib")),
+        None => (csv.cell(row, "of") == "rib").then(|| csv.cell(row, "item")),
+    }
+}
+
 /// One line per rib, or per limit where there are no ribs of a structure: a bar of how far it is used.
 pub(super) fn utilisation(left: &Left) -> Markup {
     let by_rib = left.table("utilisation.csv").filter(|table| !table.rows.is_empty());
@@ -57,7 +65,7 @@ pub(super) fn utilisation(left: &Left) -> Markup {
         h2 { "Utilisation" }
         div class="wide" { table class="sortable" {
             thead { tr { th { (columns[0]) } th { "per cent of the limit" } @for title in &columns[2..] { th { (title) } } } }
-            tbody { @for row in csv.rows.iter().take(MOST_ROWS) { tr {
+            tbody { @for row in csv.rows.iter().take(MOST_ROWS) { tr data-rib=[rib_of(&csv, row)] {
                 td { (csv.cell(row, columns[0])) }
                 @match per_cent(row) {
                     Some(value) => td class="number" data-value=(value) {

@@ -2,6 +2,8 @@
 
 mod backends;
 mod limits;
+mod several;
+mod space;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -21,6 +23,8 @@ pub struct Left {
     pub tables: Vec<(String, String)>,
     /// Pictures by their file names, as SVG.
     pub pictures: Vec<(String, String)>,
+    /// The ribs in space, as `network.json`.
+    pub network: Option<String>,
     /// Problem file and tables with their texts, where they are still there.
     pub inputs: Vec<(String, String)>,
     /// Whether the inputs are those that were solved; `None` where they could not be read.
@@ -46,16 +50,16 @@ fn number(value: Option<&Value>) -> String {
     value.and_then(Value::as_f64).map_or_else(|| "–".to_owned(), |value| significant(value, 6))
 }
 
-/// The page.
+/// The page about one run or several.
 ///
 /// ```
 /// use ribopt::report::page::{Left, page};
 /// let result = serde_json::json!({ "status": "certified", "problem": { "title": "One <rib>" }, "objective": 1.5 });
-/// let html = page(&Left { result, ..Left::default() });
+/// let html = page(&[Left { result, ..Left::default() }]);
 /// assert!(html.contains("One &lt;rib&gt;") && !html.contains("://"));
 /// ```
-pub fn page(left: &Left) -> String {
-    let title = left.text("/problem/title");
+pub fn page(lefts: &[Left]) -> String {
+    let title = lefts.iter().map(|left| left.text("/problem/title")).collect::<Vec<_>>().join(", ");
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -70,24 +74,34 @@ pub fn page(left: &Left) -> String {
             }
             body {
                 main {
-                    h1 { (title) }
-                    (verdict(left))
-                    (facts(left))
-                    (limits::governing(left))
-                    (limits::utilisation(left))
-                    (tables::sizes(left))
-                    (tables::ribs(left))
-                    (pictures(left))
-                    (backends::section(left))
-                    (tables::variables(left))
-                    (remarks(left))
-                    (input(left))
+                    @if lefts.len() > 1 { (several::beside_each_other(lefts)) }
+                    @for (at, left) in lefts.iter().enumerate() { article id={ "run-" (at + 1) } { (run(left)) } }
                 }
                 script { (PreEscaped(include_str!("sort.js"))) }
+                (space::script(lefts))
             }
         }
     }
     .into_string()
+}
+
+/// All about one run.
+fn run(left: &Left) -> Markup {
+    html! {
+        h1 { (left.text("/problem/title")) }
+        (verdict(left))
+        (facts(left))
+        (limits::governing(left))
+        (space::view(left))
+        (limits::utilisation(left))
+        (tables::sizes(left))
+        (tables::ribs(left))
+        (pictures(left))
+        (backends::section(left))
+        (tables::variables(left))
+        (remarks(left))
+        (input(left))
+    }
 }
 
 /// What the words of the status prove.

@@ -58,10 +58,15 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>], file: &str) -> Markup
     html! {
         div class="wide" { table class="sortable" {
             thead { tr { @for title in header { th { (title) } } } }
-            tbody { @for row in rows.iter().take(MOST_ROWS) { tr { @for text in row { (cell(text)) } } } }
+            tbody { @for row in rows.iter().take(MOST_ROWS) { tr data-rib=[rib(header, row)] { @for text in row { (cell(text)) } } } }
         } }
         (left_out(rows.len(), file))
     }
+}
+
+/// The rib a row is about.
+fn rib<'r>(header: &[&str], row: &'r [String]) -> Option<&'r str> {
+    row.first().filter(|_| header.first() == Some(&"rib")).map(String::as_str)
 }
 
 /// What a page says of rows that it does not show.

@@ -25,6 +25,7 @@ fn left() -> Left {
             table("volumes.csv", "rib,from,to,length,law,volume,density,mass\nr,s,s,3,frustum,0.015,,\n"),
             table("limits.csv", "name,constraint,of,item,value,side,limit,percent\nlarge,large,,,200,lower,200,100\n"),
         ],
+        network: Some("{\"ribs\":[{\"name\":\"</script><b>\"}]}".into()),
         pictures: vec![table("sections.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0\"/></svg>")],
         inputs: vec![table("a.toml", "x = \"</pre><b>\"")],
         unchanged: Some(true),
@@ -33,7 +34,7 @@ fn left() -> Left {
 
 #[test]
 fn the_page_shows_what_the_run_left() {
-    let html = page(&left());
+    let html = page(&[left()]);
     for part in ["A &amp; B", "No design that meets the limits is better", "IPE 300", "0.005", "E=3", "argmin", "00ff"] {
         assert!(html.contains(part), "{part} is missing");
     }
@@ -44,11 +45,12 @@ fn the_page_shows_what_the_run_left() {
 
 #[test]
 fn texts_of_the_user_stay_texts_and_nothing_is_fetched() {
-    let html = page(&left());
+    let html = page(&[left()]);
+    assert!(!html.contains("</script><b>") && html.contains("\\u003c/script>"));
     assert!(!html.contains("<script>alert") && html.contains("&lt;script&gt;alert"));
     assert!(!html.contains("</pre><b>"));
     // The one address is the name space within a picture, escaped: no element has a source outside the page.
-    assert!(!html.contains("src=\"http") && !html.contains("href="));
+    assert!(!html.contains("src=\"http") && !html.contains("href=\"http"));
     assert!(html.contains("default-src 'none'"));
 }
 
@@ -57,11 +59,28 @@ fn long_tables_are_cut_and_say_so() {
     let mut left = left();
     let rows: String = (0..tables::MOST_ROWS + 5).map(|k| format!("r{k},s,s,3,frustum,0.015,,\n")).collect();
     left.tables[1].1 = format!("rib,from,to,length,law,volume,density,mass\n{rows}");
-    let html = page(&left);
+    let html = page(&[left]);
     assert!(html.contains("5 more rows in <code>volumes.csv</code>") && !html.contains(&format!(">r{}<", tables::MOST_ROWS)));
 }
 
 #[test]
 fn a_result_without_anything_is_a_page_too() {
-    assert!(page(&Left::default()).contains("<!DOCTYPE html>"));
+    assert!(page(&[Left::default()]).contains("<!DOCTYPE html>"));
+}
+
+#[test]
+fn several_runs_stand_side_by_side_and_one_after_the_other() {
+    let other = Left { result: json!({ "status": "infeasible", "problem": { "title": "C" } }), ..Left::default() };
+    let html = page(&[left(), other]);
+    for part in ["2 runs", "href=\"#run-2\"", "id=\"run-2\"", "A &amp; B, C"] {
+        assert!(html.contains(part), "{part} is missing");
+    }
+    assert!(!page(&[left()]).contains(" runs<"));
+}
+
+#[test]
+fn rows_name_their_ribs() {
+    let html = page(&[left()]);
+    assert!(html.contains("<tr data-rib=\"r\">"));
+    assert!(!html.contains("data-rib=\"large\""), "a limit of no rib names none");
 }

@@ -29,12 +29,13 @@ const TABLES: [&str; 10] = [
 ];
 
 /// All pictures a run may leave.
-const PICTURES: [&str; 9] = [
+const PICTURES: [&str; 10] = [
     "convergence.svg",
     "sections.svg",
     "ribs.svg",
     "profiles.svg",
     "network.svg",
+    "network.json",
     "displaced.svg",
     "forces.svg",
     "structure.vtu",
