@@ -200,6 +200,21 @@ impl Formula {
         first.into_iter().chain(second).chain(list)
     }
 
+    /// The same with others in the place of the formulas it is made of.
+    pub fn with_children(&self, mut other: impl FnMut(&Formula) -> Formula) -> Formula {
+        match self {
+            Formula::Unary(op, inner) => Formula::Unary(*op, Box::new(other(inner))),
+            Formula::Profile(profile, inner) => Formula::Profile(*profile, Box::new(other(inner))),
+            Formula::Binary(op, left, right) => Formula::Binary(*op, Box::new(other(left)), Box::new(other(right))),
+            Formula::Fold(fold, list) => Formula::Fold(*fold, list.iter().map(other).collect()),
+            Formula::Over { fold, collection, members, body } => {
+                let body = Arc::new(other(body));
+                Formula::Over { fold: *fold, collection: *collection, members: members.clone(), body }
+            }
+            leaf => leaf.clone(),
+        }
+    }
+
     /// Whether a response that needs an analysis stands inside, seen through definitions; `known` keeps what was found of these.
     pub(super) fn analyses(&self, problem: &super::Problem, known: &mut [Option<bool>]) -> bool {
         match self {
@@ -236,15 +251,13 @@ impl Formula {
                 }
                 _ => self.clone(),
             },
-            Formula::Unary(op, inner) => Formula::Unary(*op, Box::new(go(inner))),
-            Formula::Binary(op, left, right) => Formula::Binary(*op, Box::new(go(left)), Box::new(go(right))),
-            Formula::Fold(fold, list) => Formula::Fold(*fold, list.iter().map(go).collect()),
             Formula::Over { fold, collection: Collection::Ribs, members: Members::Group(thinned), body } => {
                 let chosen = |index: &&u32| thinned.as_ref().is_none_or(|list| list.binary_search(index).is_ok());
                 let members = Members::Listed(Arc::new(ribs.iter().filter(chosen).copied().collect()));
                 Formula::Over { fold: *fold, collection: Collection::Ribs, members, body: Arc::clone(body) }
             }
-            other => other.clone(),
+            Formula::Over { .. } => self.clone(),
+            other => other.with_children(go),
         }
     }
 

@@ -88,10 +88,7 @@ impl Problem {
         let go = |inner: &Formula| self.written(inner, first);
         match formula {
             Formula::Variable(j) if *j as usize >= first => self.auxiliaries[*j as usize - first].formula.clone(),
-            Formula::Unary(op, inner) => Formula::Unary(*op, Box::new(go(inner))),
-            Formula::Binary(op, left, right) => Formula::Binary(*op, Box::new(go(left)), Box::new(go(right))),
-            Formula::Fold(fold, list) => Formula::Fold(*fold, list.iter().map(go).collect()),
-            other => other.clone(),
+            other => other.with_children(go),
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Limits from below on eigenvalues, and what takes their place where modes coincide.
 
-use std::sync::Arc;
-
+use super::least::{Least, least_of};
 use super::{Cut, Eigenvalue, Pencil};
-use crate::expression::operators::{Binary, Unary};
+use crate::expression::operators::{Binary, Fold, Unary};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::formula::{Response, What};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
+use std::sync::Arc;
 
 /// A constraint that limits an eigenvalue from below by a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,27 +78,35 @@ fn solved_for(
     }
 }
 
-/// A formula of one eigenvalue with another response in its place.
-fn with_response(problem: &Problem, formula: &Formula, other: &Arc<Response>) -> Formula {
-    let go = |inner: &Formula| with_response(problem, inner, other);
+/// A formula with others in the place of eigenvalues, definitions of them written out; `other` leaves alone what it answers `None` to.
+pub(super) fn with_eigenvalues(problem: &Problem, formula: &Formula, other: &dyn Fn(&Formula) -> Option<Formula>) -> Formula {
+    let go = |inner: &Formula| with_eigenvalues(problem, inner, other);
+    if let Some(found) = other(formula) {
+        return found;
+    }
     match formula {
-        Formula::Response(response) if response.eigenvalue().is_some() => Formula::Response(Arc::clone(other)),
         Formula::Definition(definition) => {
             let opened = &problem.definitions[*definition as usize].1;
             let changed = go(opened);
             if changed == *opened { formula.clone() } else { changed }
         }
-        Formula::Unary(op, inner) => Formula::Unary(*op, Box::new(go(inner))),
-        Formula::Binary(op, left, right) => Formula::Binary(*op, Box::new(go(left)), Box::new(go(right))),
-        other => other.clone(),
+        other => other.with_children(go),
     }
 }
 
+/// A formula of one eigenvalue with another response in its place.
+fn with_response(problem: &Problem, formula: &Formula, response: Response) -> Formula {
+    let put = Formula::Response(Arc::new(response));
+    with_eigenvalues(problem, formula, &|formula| {
+        matches!(formula, Formula::Response(own) if own.eigenvalue().is_some()).then(|| put.clone())
+    })
+}
+
 /// Modes above a limited one that are followed with it: at an optimum they tend to come down to it.
-const FOLLOWED: u32 = 2;
+pub(super) const FOLLOWED: u32 = 2;
 
 /// Limits the next modes likewise wherever an eigenvalue is limited from below: redundant, as they are no lower, but solvers see them come.
-pub fn follow(problem: &mut Problem) {
+pub(super) fn follow_limits(problem: &mut Problem) {
     let all = limited(problem);
     for limit in &all {
         for number in limit.number + 1..=limit.number + FOLLOWED {
@@ -108,25 +116,77 @@ pub fn follow(problem: &mut Problem) {
             }
             let own = problem.constraints[limit.constraint].clone();
             let detail = format!("mode {number}").into();
-            let left = with_response(problem, &own.left, &Arc::new(limit.pencil.response(number)));
+            let left = with_response(problem, &own.left, limit.pencil.response(number));
             problem.constraints.push(Constraint { detail, left, ..own });
         }
     }
 }
 
-/// The problem with cuts in the place of limits: those at `replaced` and what follows from them go, each cut is a row named like the
-/// constraint it stands for.
-pub fn with_cuts(problem: &Problem, replaced: &[Limited], cuts: Vec<(usize, Box<str>, Cut)>) -> Problem {
+/// What a cut stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Followed {
+    /// A limit: the cut is a row in its place.
+    Limit(Limited),
+    /// The least of an eigenvalue and the next ones: the cut is one of those whose least takes its place.
+    Least(Least),
+}
+
+impl Followed {
+    /// Whose eigenvalue.
+    pub fn pencil(&self) -> Pencil {
+        match self {
+            Followed::Limit(limit) => limit.pencil,
+            Followed::Least(least) => least.pencil,
+        }
+    }
+
+    /// The number of the lowest eigenvalue it is about.
+    pub fn number(&self) -> u32 {
+        match self {
+            Followed::Limit(limit) => limit.number,
+            Followed::Least(least) => least.number,
+        }
+    }
+
+    /// Whether what is done for another does for this.
+    pub fn follows_from(&self, other: &Followed) -> bool {
+        match (self, other) {
+            (Followed::Limit(limit), Followed::Limit(other)) => limit.follows_from(other),
+            _ => self == other,
+        }
+    }
+}
+
+/// All that a problem has of them.
+pub fn followed(problem: &Problem) -> Vec<Followed> {
+    let limits = limited(problem).into_iter().map(Followed::Limit);
+    limits.chain(super::least::leasts(problem).into_iter().map(Followed::Least)).collect()
+}
+
+/// The problem with cuts in the place of what they stand for. Of limits, those that follow from a cut one go, too; each cut of a limit is
+/// a row named like the constraint.
+pub fn with_cuts(problem: &Problem, cuts: Vec<(Followed, Box<str>, Cut)>) -> Problem {
     let gone: Vec<usize> = limited(problem)
         .iter()
-        .filter(|limit| replaced.iter().any(|other| limit.follows_from(other)))
+        .filter(|limit| cuts.iter().any(|(of, ..)| Followed::Limit(**limit).follows_from(of)))
         .map(|limit| limit.constraint)
         .collect();
     let mut cut = without(problem, &gone);
-    for (number, (constraint, detail, _)) in cuts.iter().enumerate() {
-        let own = problem.constraints[*constraint].clone();
-        let response = Response { what: What::Cut(number as u32), ..cuts[number].2.pencil.response(1) };
-        let left = with_response(problem, &own.left, &Arc::new(response));
+    let response = |number: usize| Response { what: What::Cut(number as u32), ..cuts[number].2.pencil.response(1) };
+    let least = |formula: &Formula| {
+        let least = Followed::Least(least_of(formula)?);
+        let own = cuts.iter().enumerate().filter(|(_, (of, ..))| *of == least);
+        let list: Vec<Formula> = own.map(|(number, _)| Formula::Response(Arc::new(response(number)))).collect();
+        (!list.is_empty()).then_some(Formula::Fold(Fold::Min, list))
+    };
+    cut.objective = with_eigenvalues(problem, &cut.objective, &least);
+    for constraint in &mut cut.constraints {
+        constraint.left = with_eigenvalues(problem, &constraint.left, &least);
+    }
+    for (number, (of, detail, _)) in cuts.iter().enumerate() {
+        let Followed::Limit(limit) = of else { continue };
+        let own = problem.constraints[limit.constraint].clone();
+        let left = with_response(problem, &own.left, response(number));
         cut.constraints.push(Constraint { detail: detail.clone(), left, ..own });
     }
     cut.cuts = Arc::new(cuts.into_iter().map(|(.., cut)| cut).collect());

@@ -1,10 +1,12 @@
 //! Eigenvalues of the structure that a problem asks for: buckling factors and natural frequencies.
 
+mod least;
 mod limits;
 
 use std::sync::Arc;
 
-pub use limits::{Limited, follow, limited, with_cuts, without};
+pub use least::Least;
+pub use limits::{Followed, Limited, followed, limited, with_cuts, without};
 
 use super::formula::{Response, What};
 use super::{Formula, Problem};
@@ -33,22 +35,32 @@ pub enum Eigenvalue {
     Cut(u32),
 }
 
-/// A limit from below on several eigenvalues that coincide or nearly do, seen in one direction.
+/// Several eigenvalues that coincide or nearly do, seen in one direction.
 ///
-/// S = K − σ·B with B = −G or M, and σ the limit, is to be positive semidefinite but for the modes below those limited. With the columns C = K₀·V of
+/// S = K − σ·B with B = −G or M is positive semidefinite but for the modes below where σ is at most the lowest of them. With the columns C = K₀·V of
 /// a basis V of the nearly coinciding modes at a reference design, and a direction v among them, the smallest wᵀSw over Cᵀw = v is vᵀ·T·v with
 /// the Schur complement T of S: smooth however many eigenvalues coincide, and S has the wanted inertia where T is positive semidefinite
-/// (Haynsworth 1968). Each direction v is one smooth row.
+/// (Haynsworth 1968). Each direction v so has one smooth function: what is left of S at a limit, or the σ at which nothing is left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
     /// Whose eigenvalues.
     pub pencil: Pencil,
-    /// The limit on the factor, or on the frequency in cycles per time.
-    pub limit: f64,
+    /// The factor, or the frequency in cycles per time, that it is taken at.
+    pub level: Level,
     /// C, by column.
     pub basis: Arc<Vec<Vec<f64>>>,
     /// v, of length 1.
     pub direction: Vec<f64>,
+}
+
+/// Where a cut is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Level {
+    /// At a limit: its value is that of the eigenvalue where that is the limit, and to first order near it.
+    Limit(f64),
+    /// At itself: the eigenvalues' values in this direction, the lowest of which over all directions is the lowest eigenvalue. They are
+    /// sought from this one on.
+    Itself(f64),
 }
 
 impl Pencil {
@@ -97,6 +109,12 @@ impl Response {
             _ => None,
         }
     }
+}
+
+/// Makes solvers see the next modes come where an eigenvalue may be the least of several: at an optimum they tend to come down to it.
+pub fn follow(problem: &mut Problem) {
+    least::follow_elsewhere(problem);
+    limits::follow_limits(problem);
 }
 
 /// The eigenvalues that objective and rows ask for, each once.

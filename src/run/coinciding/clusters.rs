@@ -1,86 +1,99 @@
-//! Which modes come together at limits.
+//! Which modes come together: at limits, or at the least of them that an objective or row looks at.
 
 use super::super::Subject;
 use crate::linear_algebra::pencil::Spectrum;
 use crate::model::{EvaluationError, Lifted, Reduced};
-use crate::problem::modes::{Cut, Limited, Pencil, limited};
+use crate::problem::modes::{Cut, Eigenvalue, Followed, Level, Pencil, eigenvalues, followed, limited};
 
-/// Modes whose eigenvalue is this near their limit, relative, are taken as coinciding with it: further away, rows of single modes tell more.
+/// Modes whose eigenvalue is this near their limit, or the lowest of them, relative, are taken as coinciding with it: further away, rows of single modes tell more.
 const NEAR: f64 = 1e-2;
 
 /// Modes further apart than this, relative, are told apart by their own rows.
 const APART: f64 = 1e-4;
 
-/// Modes that come together at a limit.
+/// Modes that come together.
 pub(super) struct Cluster {
-    pub limit: Limited,
+    /// At what.
+    pub at: Followed,
     /// Their numbers.
     modes: std::ops::RangeInclusive<u32>,
+    /// The lowest of them.
+    lowest: f64,
     /// K·φ of each.
     basis: Vec<Vec<f64>>,
     /// Whether some are so near one another that single rows say nothing.
     pub is_tight: bool,
 }
 
-/// The modes that come together at limits, at a design.
+/// The modes that come together, at a design.
 pub(super) fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, EvaluationError> {
     let Some(model) = subject.analysis() else { return Ok(Vec::new()) };
     let z = model.solved(x)?;
     let mut clusters: Vec<Cluster> = Vec::new();
-    let mut limits = limited(subject.problem());
-    limits.sort_by_key(|limit| limit.number);
-    for limit in limits {
-        if clusters.iter().any(|cluster| limit.follows_from(&cluster.limit)) {
+    let mut all = followed(subject.problem());
+    all.sort_by_key(Followed::number);
+    for at in all {
+        if clusters.iter().any(|cluster| at.follows_from(&cluster.at)) {
             continue;
         }
-        let spectrum = up_to_limit(model, &z, &limit)?;
-        let shown = |mode: u32| shown(&spectrum, &limit, mode);
-        let near = |mode: u32| is_near(shown(mode), &limit);
-        let last = (limit.number..=spectrum.values.len() as u32).take_while(|&mode| near(mode)).last();
-        // Modes below a limited one that come up to it, too, make no convex limit.
-        let Some(last) = last.filter(|&last| last > limit.number && (limit.number == 1 || !near(limit.number - 1))) else {
+        let (spectrum, level) = up_to_level(model, &z, &at)?;
+        let (pencil, number) = (at.pencil(), at.number());
+        let shown = |mode: u32| shown(&spectrum, pencil, mode);
+        let near = |mode: u32| is_near(shown(mode), level);
+        let last = (number..=spectrum.values.len() as u32).take_while(|&mode| near(mode)).last();
+        // Modes below that come up to it, too, make nothing convex.
+        let Some(last) = last.filter(|&last| last > number && (number == 1 || !near(number - 1))) else {
             continue;
         };
-        let vectors = &spectrum.vectors[limit.number as usize - 1..last as usize];
-        let basis = model.lifted().modes()?.stiffness_times(&z, limit.pencil, vectors)?;
-        let is_tight = (limit.number..last).any(|mode| (shown(mode + 1) / shown(mode) - 1.0).abs() <= APART);
-        clusters.push(Cluster { limit, modes: limit.number..=last, basis, is_tight });
+        let vectors = &spectrum.vectors[number as usize - 1..last as usize];
+        let basis = model.lifted().modes()?.stiffness_times(&z, pencil, vectors)?;
+        let is_tight = (number..last).any(|mode| (shown(mode + 1) / shown(mode) - 1.0).abs() <= APART);
+        clusters.push(Cluster { at, modes: number..=last, lowest: shown(number), basis, is_tight });
     }
     Ok(clusters)
 }
 
-/// Modes up to one that is not near the limit.
-fn up_to_limit(model: &Reduced<Lifted>, z: &[f64], limit: &Limited) -> Result<Spectrum, EvaluationError> {
-    let mut count = limit.number as usize + 1;
+/// Modes up to one that is not near the limit, or else the lowest looked at; and that level.
+fn up_to_level(model: &Reduced<Lifted>, z: &[f64], at: &Followed) -> Result<(Spectrum, f64), EvaluationError> {
+    let pencil = at.pencil();
+    let mut count = at.number() as usize + 1;
     loop {
-        let spectrum = model.lifted().modes()?.spectrum(z, limit.pencil, count)?;
+        let spectrum = model.lifted().modes()?.spectrum(z, pencil, count)?;
+        let level = match at {
+            Followed::Limit(limit) => limit.limit,
+            Followed::Least(least) => shown(&spectrum, pencil, least.number),
+        };
         let found = spectrum.values.len();
-        if found < count || !is_near(shown(&spectrum, limit, found as u32), limit) {
-            return Ok(spectrum);
+        if found < count || !is_near(shown(&spectrum, pencil, found as u32), level) {
+            return Ok((spectrum, level));
         }
         count = 2 * found;
     }
 }
 
-fn is_near(shown: f64, limit: &Limited) -> bool {
-    (shown / limit.limit - 1.0).abs() <= NEAR
+fn is_near(shown: f64, level: f64) -> bool {
+    (shown / level - 1.0).abs() <= NEAR
 }
 
 /// The eigenvalue of a mode; infinite where there is none.
-fn shown(spectrum: &Spectrum, limit: &Limited, mode: u32) -> f64 {
-    spectrum.values.get(mode as usize - 1).map_or(f64::INFINITY, |&mu| limit.pencil.shown(mu))
+fn shown(spectrum: &Spectrum, pencil: Pencil, mode: u32) -> f64 {
+    spectrum.values.get(mode as usize - 1).map_or(f64::INFINITY, |&mu| pencil.shown(mu))
 }
 
 /// Rows for the modes of a cluster, and for the sum and difference of every two.
-pub(super) fn cuts_of(cluster: &Cluster) -> Vec<(usize, Box<str>, Cut)> {
+pub(super) fn cuts_of(cluster: &Cluster) -> Vec<(Followed, Box<str>, Cut)> {
     let count = cluster.basis.len();
     let basis = std::sync::Arc::new(cluster.basis.clone());
     let number = |at: usize| cluster.modes.start() + at as u32;
+    let level = match cluster.at {
+        Followed::Limit(limit) => Level::Limit(limit.limit),
+        Followed::Least(_) => Level::Itself(cluster.lowest),
+    };
     let cut = |detail: String, entries: &[(usize, f64)]| {
         let mut direction = vec![0.0; count];
         entries.iter().for_each(|&(at, value)| direction[at] = value);
-        let Limited { pencil, limit, constraint, .. } = cluster.limit;
-        (constraint, detail.into(), Cut { pencil, limit, basis: std::sync::Arc::clone(&basis), direction })
+        let cut = Cut { pencil: cluster.at.pencil(), level, basis: std::sync::Arc::clone(&basis), direction };
+        (cluster.at, detail.into(), cut)
     };
     let mut cuts: Vec<_> = (0..count).map(|at| cut(format!("mode {}", number(at)), &[(at, 1.0)])).collect();
     let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -107,15 +120,29 @@ pub(super) fn meets_limits(subject: &Subject, x: &[f64]) -> Result<bool, Evaluat
     Ok(true)
 }
 
+/// Whether cuts in the place of the least of some eigenvalues come down to it at a point: `of` says what each cut of the problem is for.
+pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<bool, EvaluationError> {
+    let Some(model) = cut.analysis() else { return Ok(true) };
+    let (z, tolerance) = (model.solved(x)?, cut.settings.constraint_tolerance);
+    let (modes, wanted) = (model.lifted().modes()?, eigenvalues(cut.problem()));
+    let values = modes.values(&z)?;
+    for least in of.iter().enumerate().filter(|(at, one)| matches!(one, Followed::Least(_)) && !of[..*at].contains(one)) {
+        let own = |one: &Eigenvalue| matches!(*one, Eigenvalue::Cut(cut) if of[cut as usize] == *least.1);
+        let seen = wanted.iter().zip(&values).filter(|(one, _)| own(one)).map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
+        if modes.below(&z, least.1.pencil(), seen * (1.0 - tolerance))? >= least.1.number() as usize {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
 /// What reports say of them.
 pub(super) fn words(clusters: &[Cluster]) -> String {
     let of = |cluster: &Cluster| {
         let numbers: Vec<String> = cluster.modes.clone().map(|mode| mode.to_string()).collect();
-        let what = if cluster.limit.pencil == Pencil::Vibration { "vibration" } else { "buckling" };
-        format!(
-            "Modes {} of {what} coincide at their limit: the point is judged by all their combinations.",
-            numbers.join(" and ")
-        )
+        let what = if cluster.at.pencil() == Pencil::Vibration { "vibration" } else { "buckling" };
+        let place = if matches!(cluster.at, Followed::Limit(_)) { " at their limit" } else { "" };
+        format!("Modes {} of {what} coincide{place}: the point is judged by all their combinations.", numbers.join(" and "))
     };
     clusters.iter().map(of).collect::<Vec<_>>().join(" ")
 }

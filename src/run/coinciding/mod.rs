@@ -1,10 +1,12 @@
-//! Eigenvalues that coincide at their limit: as a rule they do at an optimum. A single one of them has no derivative there.
+//! Eigenvalues that coincide at their limit, or where the lowest is to rise: as a rule they do at an optimum. A single one of them has no
+//! derivative there.
 //!
 //! The limit on coinciding modes says that a small matrix T over them is positive semidefinite ([`Cut`]). Every direction v among them
 //! gives the smooth row vᵀ·T·v ≥ 0. Designs that meet the limit meet all of these rows; so a minimum of the problem with some of them that meets
 //! the limit is one of the problem itself, and the rows' multipliers y_i make the positive semidefinite multiplier Σ y_i·v_i·v_iᵀ.
 //! Directions are added where T is found to be negative, as semi-infinite programs are solved by exchange (Hettich and Kortanek, *SIAM Review*
-//! 35, 1993); whether the limit is met is counted by the inertia of one factorisation.
+//! 35, 1993); whether the limit is met is counted by the inertia of one factorisation. Where there is no limit, but an objective or a row looks
+//! at the lowest of the modes, that is the least of smooth functions by direction in the same way.
 
 mod clusters;
 
@@ -13,8 +15,8 @@ use super::settled::Settled;
 use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status};
 use crate::problem::Settings;
-use crate::problem::modes::{Cut, Limited, limited, with_cuts};
-use clusters::{Cluster, clusters, cuts_of, meets_limits, words};
+use crate::problem::modes::{Cut, Followed, followed, with_cuts};
+use clusters::{Cluster, clusters, come_down, cuts_of, meets_limits, words};
 
 /// Rounds of exchange: each adds the directions in which T is negative at the last point.
 const ROUNDS: usize = 8;
@@ -32,8 +34,13 @@ pub(super) struct Coinciding {
     pub subject: Subject,
     /// Its last outcome.
     pub outcome: Outcome,
+    /// What each cut of the problem is for.
+    cuts: Vec<Followed>,
     words: String,
 }
+
+/// Cuts, what for, and what rows of them are called.
+type Cuts = Vec<(Followed, Box<str>, Cut)>;
 
 /// A run from a point; `None` where no time is left for it.
 type Again<'a> = &'a dyn Fn(&Subject, &Settings, &[f64]) -> Option<Outcome>;
@@ -47,7 +54,7 @@ pub(super) fn foresee(
     from_all: Again<'_>,
     again: Again<'_>,
 ) -> Option<Coinciding> {
-    if limited(subject.problem()).is_empty() {
+    if followed(subject.problem()).is_empty() {
         return None;
     }
     let few = Settings {
@@ -69,14 +76,15 @@ pub(super) fn exchange(subject: &Subject, settings: &Settings, outcome: &Outcome
     if clusters.is_empty() || told_apart {
         return None;
     }
-    let (mut cuts, mut replaced) = (Vec::new(), Vec::new());
+    let mut cuts = Cuts::new();
     let mut last: Option<Coinciding> = None;
     for _ in 0..ROUNDS {
-        let refined = refined_by(subject, &clusters, &mut cuts, &mut replaced)?;
+        let refined = refined_by(subject, &clusters, &mut cuts)?;
         let x = last.as_ref().map_or(&outcome.x, |found| &found.outcome.x);
         let Some(found) = again(&refined, settings, x).filter(|found| found.objective.is_some()) else { break };
         let next = self::clusters(subject, &found.x).unwrap_or_default();
-        let coinciding = last.insert(Coinciding { subject: refined, outcome: found, words: words(&clusters) });
+        let of = cuts.iter().map(|(of, ..)| *of).collect();
+        let coinciding = last.insert(Coinciding { subject: refined, outcome: found, cuts: of, words: words(&clusters) });
         if next.is_empty() || coinciding.is_certified(subject) {
             break;
         }
@@ -88,13 +96,20 @@ pub(super) fn exchange(subject: &Subject, settings: &Settings, outcome: &Outcome
 impl Coinciding {
     /// Whether its point is a certified one of the subject's.
     fn is_certified(&self, subject: &Subject) -> bool {
-        is_certified(subject, &self.outcome)
+        self.certifies(subject, &self.outcome)
+    }
+
+    /// Whether an outcome of the problem with cuts is a certified one of the subject's.
+    fn certifies(&self, subject: &Subject, outcome: &Outcome) -> bool {
+        let comes_down = || come_down(&self.subject, &self.cuts, &outcome.x).unwrap_or(false);
+        outcome.status == Status::Certified && meets_limits(subject, &outcome.x).unwrap_or(false) && comes_down()
     }
 
     /// With the outcome of all backends from its point, where that is no worse; `None` where nothing is known of the point.
     pub fn compared(self, subject: &Subject, all: Option<Outcome>) -> Option<Settled> {
-        let mut outcome = all.filter(|all| is_certified(subject, all)).unwrap_or(self.outcome);
-        if is_certified(subject, &outcome) {
+        let chosen = all.filter(|all| self.certifies(subject, all));
+        let mut outcome = chosen.unwrap_or_else(|| self.outcome.clone());
+        if self.certifies(subject, &outcome) {
             outcome.scope = Extent::Local;
             outcome.message = format!("{} {}", self.words, outcome.message);
         } else if meets_limits(subject, &outcome.x).unwrap_or(false) {
@@ -107,24 +122,10 @@ impl Coinciding {
     }
 }
 
-fn is_certified(subject: &Subject, outcome: &Outcome) -> bool {
-    outcome.status == Status::Certified && meets_limits(subject, &outcome.x).unwrap_or(false)
-}
-
 /// The problem with rows for these clusters beside those there are.
-fn refined_by(
-    subject: &Subject,
-    clusters: &[Cluster],
-    cuts: &mut Vec<(usize, Box<str>, Cut)>,
-    replaced: &mut Vec<Limited>,
-) -> Option<Subject> {
-    for cluster in clusters {
-        if !replaced.contains(&cluster.limit) {
-            replaced.push(cluster.limit);
-        }
-        cuts.extend(cuts_of(cluster));
-    }
-    subject.with_problem(with_cuts(subject.problem(), replaced, cuts.clone())).ok()
+fn refined_by(subject: &Subject, clusters: &[Cluster], cuts: &mut Cuts) -> Option<Subject> {
+    clusters.iter().for_each(|cluster| cuts.extend(cuts_of(cluster)));
+    subject.with_problem(with_cuts(subject.problem(), cuts.clone())).ok()
 }
 
 /// What `verify` judges a point by where eigenvalues coincide there; `None` where none do.
@@ -133,6 +134,6 @@ pub(super) fn refined(subject: &Subject, x: &[f64]) -> Option<(Subject, String)>
     if clusters.iter().all(|cluster| !cluster.is_tight) || !meets_limits(subject, x).unwrap_or(false) {
         return None;
     }
-    let refined = refined_by(subject, &clusters, &mut Vec::new(), &mut Vec::new())?;
+    let refined = refined_by(subject, &clusters, &mut Cuts::new())?;
     Some((refined, words(&clusters)))
 }

@@ -5,6 +5,7 @@
 //! (Nelson 1976; Haug, Choi and Komkov, *Design Sensitivity Analysis of Structural Systems*, 1986). Displacements are among the z: through
 //! them the prestress changes with the design.
 
+mod cuts;
 mod directions;
 mod energies;
 mod smooth;
@@ -20,6 +21,7 @@ use crate::problem::Problem;
 use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
+use cuts::System;
 use energies::{Derivatives, Energies};
 use smooth::{Smooth, chained, turned};
 use std::sync::Arc;
@@ -52,12 +54,6 @@ struct Solution {
     k: Matrix,
     b: Matrix,
     spectrum: Spectrum,
-}
-
-/// S, and the system over it that says what cuts through one basis see.
-struct System {
-    s: Matrix,
-    complement: Complement,
 }
 
 impl Modes {
@@ -107,6 +103,14 @@ impl Modes {
     /// The structure is a mechanism, or a matrix has no value.
     pub fn spectrum(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Spectrum, EvaluationError> {
         self.solution(z, pencil, count).map(|solution| solution.spectrum)
+    }
+
+    /// The values asked for at design and displacements, as users know them; [`NEVER`] where so many modes do not buckle.
+    ///
+    /// # Errors
+    /// The structure is a mechanism, or a matrix has no value.
+    pub fn values(&self, z: &[f64]) -> Result<Vec<f64>, EvaluationError> {
+        self.at(z).values()
     }
 
     fn solution(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Solution, EvaluationError> {
@@ -181,7 +185,6 @@ impl Solved<'_> {
         Ok(solution)
     }
 
-    /// The values asked for, as users know them; [`NEVER`] where so many modes do not buckle.
     fn values(&mut self) -> Result<Vec<f64>, EvaluationError> {
         let modes = self.modes;
         let value = |one: &Eigenvalue| match *one {
@@ -189,30 +192,9 @@ impl Solved<'_> {
                 let mu = self.solution(pencil)?.spectrum.values.get(number as usize - 1).copied().unwrap_or(0.0);
                 Ok(factor(pencil, mu))
             }
-            Eigenvalue::Cut(cut) => {
-                let system = self.system(cut as usize)?;
-                let cut = &modes.cuts[cut as usize];
-                let w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
-                Ok(shown(cut, dot(&w, &system.s.times(&w))))
-            }
+            Eigenvalue::Cut(cut) => self.value_of_cut(cut as usize),
         };
         modes.wanted.iter().map(value).collect()
-    }
-
-    /// What a cut is seen through.
-    fn system(&mut self, at: usize) -> Result<Arc<System>, EvaluationError> {
-        let (energies, cuts) = (&self.modes.energies, &self.modes.cuts);
-        let cut = &cuts[at];
-        let alike = |other: &Cut| Arc::ptr_eq(&other.basis, &cut.basis) && (other.pencil, other.limit) == (cut.pencil, cut.limit);
-        if let Some((_, system)) = self.systems.iter().find(|(other, _)| alike(&cuts[*other])) {
-            return Ok(Arc::clone(system));
-        }
-        let s = energies.matrix(&self.z, cut.pencil, 1.0, -1.0 / cut.pencil.inverse(cut.limit))?;
-        let k = energies.matrix(&self.z, cut.pencil, 1.0, 0.0)?;
-        let complement = Complement::new(&s, &cut.basis, &k).map_err(unsolved)?;
-        let system = Arc::new(System { s, complement });
-        self.systems.push((at, Arc::clone(&system)));
-        Ok(system)
     }
 
     /// The first derivatives of a value, and the second where they are asked for.
@@ -250,36 +232,11 @@ impl Solved<'_> {
         turned(&complement, &mixed, &mut curvature).map_err(unsolved)?;
         Ok(chained(slope, curvature, &active, first, second))
     }
-
-    fn of_cut(&mut self, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
-        let system = self.system(at)?;
-        let System { s, complement } = system.as_ref();
-        let (energies, cut) = (&self.modes.energies, &self.modes.cuts[at]);
-        let w = complement.stationary(&cut.direction).map_err(unsolved)?;
-        let limit = cut.pencil.inverse(cut.limit);
-        let remaining: f64 = dot(&w, &s.times(&w));
-        // m = limit·(1 − b) is μ to first order.
-        let [first, second] = cut.pencil.slopes(limit * (1.0 - remaining));
-        let (first, second) = (-limit * first, limit * limit * second);
-        if !curved {
-            let slope = energies.slope(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
-            return Ok(chained(slope, Vec::new(), &[], first, second));
-        }
-        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, cut.pencil, 1.0, -1.0 / limit)?;
-        let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
-        turned(complement, &mixed, &mut curvature).map_err(unsolved)?;
-        Ok(chained(slope, curvature, &active, first, second))
-    }
 }
 
 /// The eigenvalue that users know, [`NEVER`] where there is none.
 fn factor(pencil: Pencil, mu: f64) -> f64 {
     if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER }
-}
-
-/// What a cut shows where this is left of S.
-fn shown(cut: &Cut, remaining: f64) -> f64 {
-    cut.pencil.shown(cut.pencil.inverse(cut.limit) * (1.0 - remaining))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
