@@ -190,6 +190,40 @@ fn coinciding_frequencies_are_verified() {
     }
 }
 
+/// The heaviest allowed is given, and the lowest frequency is to be as high as can be: the dual of the problem above, with the same optimum.
+#[test]
+fn the_highest_of_coinciding_frequencies_is_certified() {
+    let minimised = cross("{ lower = 1e-6, start = 1e-3 }");
+    for (objective, value) in [
+        ("maximize = \"frequency(1)\"", 30.0),
+        ("minimize = \"100/f1^2\"\n[definitions]\nf1 = \"frequency(1)\"", 1.0 / 9.0),
+        ("maximize = \"min(frequency(1), frequency(2)) - 3\"", 27.0),
+    ] {
+        let text = minimised.replace("minimize = \"p.A + q.A\"", objective);
+        let limit = format!("require = \"p.A + q.A <= {:?}\"", 2.0 * least_area());
+        let text = text.replace("require = \"frequency(1) >= 30\"", &limit);
+        let found: Outcome = outcome(&read("highest", &text)).unwrap();
+        assert_eq!(found.status, Status::Certified, "{objective}: {}", found.message);
+        assert!(found.message.contains("Modes 1 and 2 of vibration coincide"), "{}", found.message);
+        let sign = if objective.starts_with("maximize") { -1.0 } else { 1.0 };
+        assert!((sign * found.objective.unwrap() / value - 1.0).abs() < 1e-8, "{objective}: {:?}", found.objective);
+    }
+}
+
+/// A frequency that a variable asks for, which is paid for: 2·A(x) − c·x has its minimum at 30, where c = 2·A'(30).
+#[test]
+fn coinciding_frequencies_beside_a_variable_are_certified() {
+    let (x, bar, mass): (f64, f64, f64) = (30.0, 7e10, 450.0);
+    let square = (TAU * x).powi(2);
+    let slope = mass * bar / (bar - 2.0 * square * 2700.0 / 3.0).powi(2) * 2.0 * TAU * TAU * x;
+    let text = cross("{ lower = 1e-6, start = 1e-3 }")
+        .replace("p.A + q.A\"", &format!("p.A + q.A - {:?}*x\"\n[variables]\nx = {{ lower = 1, upper = 100, start = 20 }}", 2.0 * slope))
+        .replace("frequency(1) >= 30", "frequency(1) >= x");
+    let found: Outcome = outcome(&read("beside", &text)).unwrap();
+    assert_eq!(found.status, Status::Certified, "{}", found.message);
+    assert!((found.x[0] / 30.0 - 1.0).abs() < 1e-6, "{:?}", found.x);
+}
+
 /// Keller's strongest column, pinned, of similar sections (EI = A²): the factor of the lightest with 8 equal pieces is that asked for, and its volume
 /// lies above the continuous column's √3/2 and below the prismatic one's 1.
 #[test]

@@ -32,7 +32,7 @@ impl Constraint {
 }
 
 /// What a row's left side is held against.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 #[allow(missing_docs)]
 pub enum Limit {
     AtMost(Formula),

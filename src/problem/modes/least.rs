@@ -6,10 +6,10 @@
 
 use std::sync::Arc;
 
-use super::limits::{FOLLOWED, limited, with_eigenvalues};
+use super::limits::{FOLLOWED, follow_row, limited, with_eigenvalues};
 use super::{Eigenvalue, Pencil};
 use crate::expression::operators::Fold;
-use crate::problem::{Formula, Limit, Problem};
+use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 
 /// The least of an eigenvalue and the next ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,36 +55,88 @@ fn collect(formula: &Formula, found: &mut Vec<Least>) {
     formula.children().for_each(|inner| collect(inner, found));
 }
 
-/// Puts them in, wherever that leaves no kink: in objectives and in rows that are no limits by a number.
-pub(super) fn follow_elsewhere(problem: &mut Problem) {
+/// A row that an eigenvalue and variables are in, and that a higher eigenvalue can only help: `frequency(1) >= x`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Helped {
+    /// Which constraint.
+    pub constraint: usize,
+    /// The eigenvalue.
+    pub eigenvalue: Least,
+}
+
+/// Those of a problem.
+pub(super) fn helped(problem: &Problem) -> Vec<Helped> {
     let limited: Vec<usize> = limited(problem).iter().map(|limit| limit.constraint).collect();
+    let others = (0..problem.constraints.len()).filter(|at| !limited.contains(at));
+    let of = |constraint: usize| {
+        let Restated::Rows(eigenvalue) = restated(problem, &problem.constraints[constraint])? else { return None };
+        Some(Helped { constraint, eigenvalue })
+    };
+    others.filter_map(of).collect()
+}
+
+/// What a row with the least of eigenvalues in their place is, once its kinks are taken out.
+enum Restated {
+    /// As many rows, each with one of them: this is the first.
+    Rows(Least),
+    /// One with a variable below them.
+    Bounded(Formula),
+}
+
+/// `None` where there is no eigenvalue, or kinks stay: a lower one would help.
+fn restated(problem: &Problem, constraint: &Constraint) -> Option<Restated> {
+    if !matches!((&constraint.scope, &constraint.right), (Scope::Once, Limit::AtLeast(_) | Limit::AtMost(_))) {
+        return None;
+    }
+    let left = with_leasts(problem, &constraint.left)?;
+    let row = Constraint { left, ..constraint.clone() };
+    let trial = Problem { objective: Formula::default(), constraints: vec![row], ..problem.clone() };
+    let restated = without_kinks(&trial)?;
+    let left = trial.constraints.into_iter().next()?.left;
+    if !restated.auxiliaries.is_empty() {
+        return Some(Restated::Bounded(left));
+    }
+    let mut found = Vec::new();
+    collect(&left, &mut found);
+    let [only] = found[..] else { return None };
+    (restated.constraints.len() == 1 + FOLLOWED as usize).then_some(Restated::Rows(only))
+}
+
+/// A formula with the least of an eigenvalue and the next ones in the place of each; `None` where there is none.
+fn with_leasts(problem: &Problem, formula: &Formula) -> Option<Formula> {
     let least = |formula: &Formula| {
         let Formula::Response(response) = formula else { return None };
         let Eigenvalue::Number(pencil, number) = response.eigenvalue()? else { return None };
         let one = |number| Formula::Response(Arc::new(pencil.response(number)));
         Some(Formula::Fold(Fold::Min, (number..=number + FOLLOWED).map(one).collect()))
     };
-    let objective = with_eigenvalues(problem, &problem.objective, &least);
-    if objective != problem.objective {
+    let found = with_eigenvalues(problem, formula, &least);
+    (found != *formula).then_some(found)
+}
+
+/// The problem restated; `None` where kinks stay.
+fn without_kinks(trial: &Problem) -> Option<Problem> {
+    Some(trial.clone().without_kinks()).filter(|restated| restated.kinks().is_empty())
+}
+
+/// Puts the least of several in the place of eigenvalues, wherever that leaves no kink: in objectives, and in rows that are no limits by a number.
+pub(super) fn follow_elsewhere(problem: &mut Problem) {
+    if let Some(objective) = with_leasts(problem, &problem.objective) {
         let trial = Problem { objective, constraints: Vec::new(), ..problem.clone() };
-        if has_no_kinks(&trial) {
+        if without_kinks(&trial).is_some() {
             problem.objective = trial.objective;
         }
     }
-    for at in (0..problem.constraints.len()).filter(|at| !limited.contains(at)) {
-        let own = &problem.constraints[at];
-        let left = with_eigenvalues(problem, &own.left, &least);
-        if left == own.left || matches!(own.right, Limit::Equal(_) | Limit::Between(..)) {
-            continue;
-        }
-        let constraint = crate::problem::Constraint { left, ..own.clone() };
-        let trial = Problem { objective: Formula::default(), constraints: vec![constraint], ..problem.clone() };
-        if has_no_kinks(&trial) {
-            problem.constraints[at].left = trial.constraints[0].left.clone();
+    let helped = helped(problem);
+    for one in &helped {
+        let Least { pencil, number } = one.eigenvalue;
+        (number + 1..=number + FOLLOWED).for_each(|next| follow_row(problem, one.constraint, pencil.response(next), next));
+    }
+    let limited: Vec<usize> = limited(problem).iter().map(|limit| limit.constraint).collect();
+    let is_done = |at: &usize| limited.contains(at) || helped.iter().any(|one| one.constraint == *at);
+    for at in (0..problem.constraints.len()).filter(|at| !is_done(at)) {
+        if let Some(Restated::Bounded(left)) = restated(problem, &problem.constraints[at]) {
+            problem.constraints[at].left = left;
         }
     }
-}
-
-fn has_no_kinks(trial: &Problem) -> bool {
-    trial.clone().without_kinks().kinks().is_empty()
 }

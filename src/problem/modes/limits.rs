@@ -1,6 +1,6 @@
 //! Limits from below on eigenvalues, and what takes their place where modes coincide.
 
-use super::least::{Least, least_of};
+use super::least::{Helped, Least, helped, least_of, leasts};
 use super::{Cut, Eigenvalue, Pencil};
 use crate::expression::operators::{Binary, Fold, Unary};
 use crate::problem::evaluate::{Evaluation, Item};
@@ -111,15 +111,27 @@ pub(super) fn follow_limits(problem: &mut Problem) {
     for limit in &all {
         for number in limit.number + 1..=limit.number + FOLLOWED {
             let next = Limited { number, ..*limit };
-            if all.iter().any(|other| other.number == number && next.follows_from(other)) {
-                continue;
+            if !all.iter().any(|other| other.number == number && next.follows_from(other)) {
+                follow_row(problem, limit.constraint, limit.pencil.response(number), number);
             }
-            let own = problem.constraints[limit.constraint].clone();
-            let detail = format!("mode {number}").into();
-            let left = with_response(problem, &own.left, limit.pencil.response(number));
-            problem.constraints.push(Constraint { detail, left, ..own });
         }
     }
+}
+
+/// Adds a row with the eigenvalue of this number in the place of another's.
+pub(super) fn follow_row(problem: &mut Problem, constraint: usize, response: Response, number: u32) {
+    let own = problem.constraints[constraint].clone();
+    let left = with_response(problem, &own.left, response);
+    problem.constraints.push(Constraint { detail: format!("mode {number}").into(), left, ..own });
+}
+
+/// Whether two rows differ in their eigenvalues only.
+fn are_alike(problem: &Problem, one: usize, other: usize) -> bool {
+    let plain = |at: usize| {
+        let own = &problem.constraints[at];
+        (with_response(problem, &own.left, Pencil::Vibration.response(1)), own.right.clone())
+    };
+    plain(one) == plain(other)
 }
 
 /// What a cut stands for.
@@ -127,32 +139,40 @@ pub(super) fn follow_limits(problem: &mut Problem) {
 pub enum Followed {
     /// A limit: the cut is a row in its place.
     Limit(Limited),
+    /// A row that an eigenvalue helps: the cut makes one in its place.
+    Row(Helped),
     /// The least of an eigenvalue and the next ones: the cut is one of those whose least takes its place.
     Least(Least),
 }
 
 impl Followed {
-    /// Whose eigenvalue.
-    pub fn pencil(&self) -> Pencil {
+    /// Whose eigenvalue it is about, and the number of the lowest.
+    pub fn eigenvalue(&self) -> Least {
         match self {
-            Followed::Limit(limit) => limit.pencil,
-            Followed::Least(least) => least.pencil,
-        }
-    }
-
-    /// The number of the lowest eigenvalue it is about.
-    pub fn number(&self) -> u32 {
-        match self {
-            Followed::Limit(limit) => limit.number,
-            Followed::Least(least) => least.number,
+            Followed::Limit(limit) => Least { pencil: limit.pencil, number: limit.number },
+            Followed::Row(helped) => helped.eigenvalue,
+            Followed::Least(least) => *least,
         }
     }
 
     /// Whether what is done for another does for this.
-    pub fn follows_from(&self, other: &Followed) -> bool {
+    pub fn follows_from(&self, problem: &Problem, other: &Followed) -> bool {
         match (self, other) {
             (Followed::Limit(limit), Followed::Limit(other)) => limit.follows_from(other),
+            (Followed::Row(row), Followed::Row(other)) => {
+                let (own, others) = (row.eigenvalue, other.eigenvalue);
+                own.pencil == others.pencil && own.number >= others.number && are_alike(problem, row.constraint, other.constraint)
+            }
             _ => self == other,
+        }
+    }
+
+    /// The row whose place a cut takes; `None` where it stands within formulas.
+    fn row(&self) -> Option<usize> {
+        match self {
+            Followed::Limit(limit) => Some(limit.constraint),
+            Followed::Row(helped) => Some(helped.constraint),
+            Followed::Least(_) => None,
         }
     }
 }
@@ -160,17 +180,15 @@ impl Followed {
 /// All that a problem has of them.
 pub fn followed(problem: &Problem) -> Vec<Followed> {
     let limits = limited(problem).into_iter().map(Followed::Limit);
-    limits.chain(super::least::leasts(problem).into_iter().map(Followed::Least)).collect()
+    let rows = helped(problem).into_iter().map(Followed::Row);
+    limits.chain(rows).chain(leasts(problem).into_iter().map(Followed::Least)).collect()
 }
 
-/// The problem with cuts in the place of what they stand for. Of limits, those that follow from a cut one go, too; each cut of a limit is
-/// a row named like the constraint.
+/// The problem with cuts in the place of what they stand for. Of rows, those that follow from a cut one go, too; each cut of a row is one named
+/// like the constraint.
 pub fn with_cuts(problem: &Problem, cuts: Vec<(Followed, Box<str>, Cut)>) -> Problem {
-    let gone: Vec<usize> = limited(problem)
-        .iter()
-        .filter(|limit| cuts.iter().any(|(of, ..)| Followed::Limit(**limit).follows_from(of)))
-        .map(|limit| limit.constraint)
-        .collect();
+    let is_gone = |one: &Followed| cuts.iter().any(|(of, ..)| one.follows_from(problem, of));
+    let gone: Vec<usize> = followed(problem).iter().filter(|one| is_gone(one)).filter_map(Followed::row).collect();
     let mut cut = without(problem, &gone);
     let response = |number: usize| Response { what: What::Cut(number as u32), ..cuts[number].2.pencil.response(1) };
     let least = |formula: &Formula| {
@@ -184,8 +202,8 @@ pub fn with_cuts(problem: &Problem, cuts: Vec<(Followed, Box<str>, Cut)>) -> Pro
         constraint.left = with_eigenvalues(problem, &constraint.left, &least);
     }
     for (number, (of, detail, _)) in cuts.iter().enumerate() {
-        let Followed::Limit(limit) = of else { continue };
-        let own = problem.constraints[limit.constraint].clone();
+        let Some(row) = of.row() else { continue };
+        let own = problem.constraints[row].clone();
         let left = with_response(problem, &own.left, response(number));
         cut.constraints.push(Constraint { detail: detail.clone(), left, ..own });
     }

@@ -5,7 +5,7 @@ mod limits;
 
 use std::sync::Arc;
 
-pub use least::Least;
+pub use least::{Helped, Least};
 pub use limits::{Followed, Limited, followed, limited, with_cuts, without};
 
 use super::formula::{Response, What};

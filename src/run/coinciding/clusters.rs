@@ -3,7 +3,7 @@
 use super::super::Subject;
 use crate::linear_algebra::pencil::Spectrum;
 use crate::model::{EvaluationError, Lifted, Reduced};
-use crate::problem::modes::{Cut, Eigenvalue, Followed, Level, Pencil, eigenvalues, followed, limited};
+use crate::problem::modes::{Cut, Eigenvalue, Followed, Least, Level, Pencil, eigenvalues, followed, limited};
 
 /// Modes whose eigenvalue is this near their limit, or the lowest of them, relative, are taken as coinciding with it: further away, rows of single modes tell more.
 const NEAR: f64 = 1e-2;
@@ -31,13 +31,13 @@ pub(super) fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, Eva
     let z = model.solved(x)?;
     let mut clusters: Vec<Cluster> = Vec::new();
     let mut all = followed(subject.problem());
-    all.sort_by_key(Followed::number);
+    all.sort_by_key(|one| one.eigenvalue().number);
     for at in all {
-        if clusters.iter().any(|cluster| at.follows_from(&cluster.at)) {
+        if clusters.iter().any(|cluster| at.follows_from(subject.problem(), &cluster.at)) {
             continue;
         }
         let (spectrum, level) = up_to_level(model, &z, &at)?;
-        let (pencil, number) = (at.pencil(), at.number());
+        let Least { pencil, number } = at.eigenvalue();
         let shown = |mode: u32| shown(&spectrum, pencil, mode);
         let near = |mode: u32| is_near(shown(mode), level);
         let last = (number..=spectrum.values.len() as u32).take_while(|&mode| near(mode)).last();
@@ -55,13 +55,13 @@ pub(super) fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, Eva
 
 /// Modes up to one that is not near the limit, or else the lowest looked at; and that level.
 fn up_to_level(model: &Reduced<Lifted>, z: &[f64], at: &Followed) -> Result<(Spectrum, f64), EvaluationError> {
-    let pencil = at.pencil();
-    let mut count = at.number() as usize + 1;
+    let Least { pencil, number } = at.eigenvalue();
+    let mut count = number as usize + 1;
     loop {
         let spectrum = model.lifted().modes()?.spectrum(z, pencil, count)?;
         let level = match at {
             Followed::Limit(limit) => limit.limit,
-            Followed::Least(least) => shown(&spectrum, pencil, least.number),
+            Followed::Row(_) | Followed::Least(_) => shown(&spectrum, pencil, number),
         };
         let found = spectrum.values.len();
         if found < count || !is_near(shown(&spectrum, pencil, found as u32), level) {
@@ -87,12 +87,12 @@ pub(super) fn cuts_of(cluster: &Cluster) -> Vec<(Followed, Box<str>, Cut)> {
     let number = |at: usize| cluster.modes.start() + at as u32;
     let level = match cluster.at {
         Followed::Limit(limit) => Level::Limit(limit.limit),
-        Followed::Least(_) => Level::Itself(cluster.lowest),
+        Followed::Row(_) | Followed::Least(_) => Level::Itself(cluster.lowest),
     };
     let cut = |detail: String, entries: &[(usize, f64)]| {
         let mut direction = vec![0.0; count];
         entries.iter().for_each(|&(at, value)| direction[at] = value);
-        let cut = Cut { pencil: cluster.at.pencil(), level, basis: std::sync::Arc::clone(&basis), direction };
+        let cut = Cut { pencil: cluster.at.eigenvalue().pencil, level, basis: std::sync::Arc::clone(&basis), direction };
         (cluster.at, detail.into(), cut)
     };
     let mut cuts: Vec<_> = (0..count).map(|at| cut(format!("mode {}", number(at)), &[(at, 1.0)])).collect();
@@ -120,16 +120,17 @@ pub(super) fn meets_limits(subject: &Subject, x: &[f64]) -> Result<bool, Evaluat
     Ok(true)
 }
 
-/// Whether cuts in the place of the least of some eigenvalues come down to it at a point: `of` says what each cut of the problem is for.
+/// Whether cuts in the place of eigenvalues without a limit come down to them at a point: `of` says what each cut of the problem is for.
 pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<bool, EvaluationError> {
     let Some(model) = cut.analysis() else { return Ok(true) };
     let (z, tolerance) = (model.solved(x)?, cut.settings.constraint_tolerance);
     let (modes, wanted) = (model.lifted().modes()?, eigenvalues(cut.problem()));
     let values = modes.values(&z)?;
-    for least in of.iter().enumerate().filter(|(at, one)| matches!(one, Followed::Least(_)) && !of[..*at].contains(one)) {
-        let own = |one: &Eigenvalue| matches!(*one, Eigenvalue::Cut(cut) if of[cut as usize] == *least.1);
+    for (_, followed) in of.iter().enumerate().filter(|(at, one)| !matches!(one, Followed::Limit(_)) && !of[..*at].contains(one)) {
+        let own = |one: &Eigenvalue| matches!(*one, Eigenvalue::Cut(cut) if of[cut as usize] == *followed);
         let seen = wanted.iter().zip(&values).filter(|(one, _)| own(one)).map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
-        if modes.below(&z, least.1.pencil(), seen * (1.0 - tolerance))? >= least.1.number() as usize {
+        let Least { pencil, number } = followed.eigenvalue();
+        if modes.below(&z, pencil, seen * (1.0 - tolerance))? >= number as usize {
             return Ok(false);
         }
     }
@@ -140,7 +141,7 @@ pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<boo
 pub(super) fn words(clusters: &[Cluster]) -> String {
     let of = |cluster: &Cluster| {
         let numbers: Vec<String> = cluster.modes.clone().map(|mode| mode.to_string()).collect();
-        let what = if cluster.at.pencil() == Pencil::Vibration { "vibration" } else { "buckling" };
+        let what = if cluster.at.eigenvalue().pencil == Pencil::Vibration { "vibration" } else { "buckling" };
         let place = if matches!(cluster.at, Followed::Limit(_)) { " at their limit" } else { "" };
         format!("Modes {} of {what} coincide{place}: the point is judged by all their combinations.", numbers.join(" and "))
     };

@@ -9,6 +9,8 @@
 //! at the lowest of the modes, that is the least of smooth functions by direction in the same way.
 
 mod clusters;
+#[cfg(test)]
+mod tests;
 
 use super::Subject;
 use super::settled::Settled;

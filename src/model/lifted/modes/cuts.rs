@@ -19,9 +19,8 @@ const STEPS: usize = 40;
 /// Relative change at which μ is found: two roundings.
 const FOUND: f64 = 2.0 * f64::EPSILON;
 
-/// S at its μ, and the system over it that says what cuts through one basis see.
+/// B, μ, and the system over S at it that says what cuts through one basis see.
 pub(super) struct System {
-    s: Matrix,
     b: Matrix,
     mu: f64,
     complement: Complement,
@@ -29,9 +28,8 @@ pub(super) struct System {
 
 impl System {
     fn new(cut: &Cut, (k, b): (&Matrix, Matrix), mu: f64) -> Result<Self, EvaluationError> {
-        let s = k.plus(-1.0 / mu, &b);
-        let complement = Complement::new(&s, &cut.basis, k).map_err(unsolved)?;
-        Ok(System { s, b, mu, complement })
+        let complement = Complement::new(&k.plus(-1.0 / mu, &b), &cut.basis, k).map_err(unsolved)?;
+        Ok(System { b, mu, complement })
     }
 
     fn stationary(&self, cut: &Cut) -> Result<Vec<f64>, EvaluationError> {
@@ -56,7 +54,7 @@ impl Solved<'_> {
         Ok(match cut.level {
             Level::Limit(_) => {
                 let w = system.stationary(cut)?;
-                shown(cut.pencil, system.mu, dot(&w, &system.s.times(&w)))
+                shown(cut.pencil, system.mu, self.remaining(cut, system.mu, &w)?)
             }
             Level::Itself(_) => cut.pencil.shown(system.mu),
         })
@@ -76,11 +74,41 @@ impl Solved<'_> {
         let b = energies.matrix(&self.z, cut.pencil, 0.0, 1.0)?;
         let system = match cut.level {
             Level::Limit(limit) => System::new(cut, (&k, b), cut.pencil.inverse(limit))?,
-            Level::Itself(near) => sought(cut, &k, &b, near)?,
+            Level::Itself(near) => self.sought(cut, &k, &b, near)?,
         };
         let system = Arc::new(system);
         self.systems.push((at, Arc::clone(&system)));
         Ok(system)
+    }
+
+    /// wᵀSw at a level.
+    fn remaining(&self, cut: &Cut, mu: f64, w: &[f64]) -> Result<f64, EvaluationError> {
+        let [stiffness, other] = self.modes.energies.energies(&self.z, w, cut.pencil)?;
+        Ok(stiffness - other / mu)
+    }
+
+    /// The system at the μ at which nothing is left of S in the cut's direction. r is concave in 1/μ, and Newton's next 1/μ is the Rayleigh
+    /// quotient of w.
+    fn sought(&self, cut: &Cut, k: &Matrix, b: &Matrix, near: f64) -> Result<System, EvaluationError> {
+        let mut mu = cut.pencil.inverse(near);
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let system = System::new(cut, (k, b.clone()), mu)?;
+            let w = system.stationary(cut)?;
+            let [stiffness, other] = self.modes.energies.energies(&self.z, &w, cut.pencil)?;
+            let next = other / stiffness;
+            let change = (next / mu - 1.0).abs();
+            // At rounding, steps no longer shrink.
+            if change <= FOUND || change >= last && last <= f64::EPSILON.sqrt() {
+                return Ok(system);
+            }
+            if !(next > 0.0 && next.is_finite()) {
+                break;
+            }
+            (mu, last) = (next, change);
+        }
+        let cause = "so far from the design they were taken at, modes have no value in this combination".into();
+        Err(EvaluationError::Invalid { term: "coinciding modes of the structure".into(), cause })
     }
 
     pub(super) fn of_cut(&mut self, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
@@ -96,7 +124,7 @@ impl Solved<'_> {
                 slope.iter_mut().for_each(|value| *value /= -rise);
                 return Ok(chained(slope, Vec::new(), &[], pencil.slopes(mu)[0], 0.0));
             }
-            let [first, _] = slopes(pencil, mu, dot(&w, &system.s.times(&w)));
+            let [first, _] = slopes(pencil, mu, self.remaining(cut, mu, &w)?);
             return Ok(chained(slope, Vec::new(), &[], first, 0.0));
         }
         let Derivatives { slope, mut curvature, mixed } = energies.derivatives(&self.z, &w, pencil, 1.0, share)?;
@@ -109,7 +137,7 @@ impl Solved<'_> {
             return Ok(chained(slope, curvature, &active, first, second));
         }
         let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || !mixed[z].is_empty()).collect();
-        let [first, second] = slopes(pencil, mu, dot(&w, &system.s.times(&w)));
+        let [first, second] = slopes(pencil, mu, self.remaining(cut, mu, &w)?);
         Ok(chained(slope, curvature, &active, first, second))
     }
 }
@@ -147,29 +175,6 @@ impl Implicit {
         curvature.iter_mut().for_each(|(.., value)| *value /= -self.rise);
         (slope, curvature, active)
     }
-}
-
-/// The system at the μ at which nothing is left of S in the cut's direction. r is concave in 1/μ, and Newton's next 1/μ is the Rayleigh
-/// quotient of w.
-fn sought(cut: &Cut, k: &Matrix, b: &Matrix, near: f64) -> Result<System, EvaluationError> {
-    let mut mu = cut.pencil.inverse(near);
-    let mut last = f64::INFINITY;
-    for _ in 0..STEPS {
-        let system = System::new(cut, (k, b.clone()), mu)?;
-        let w = system.stationary(cut)?;
-        let next = dot(&w, &b.times(&w)) / dot(&w, &k.times(&w));
-        let change = (next / mu - 1.0).abs();
-        // At rounding, steps no longer shrink.
-        if change <= FOUND || change >= last && last <= f64::EPSILON.sqrt() {
-            return Ok(system);
-        }
-        if !(next > 0.0 && next.is_finite()) {
-            break;
-        }
-        (mu, last) = (next, change);
-    }
-    let cause = "so far from the design they were taken at, modes have no value in this combination".into();
-    Err(EvaluationError::Invalid { term: "coinciding modes of the structure".into(), cause })
 }
 
 /// What a cut at the μ of its limit shows where this is left of S: m = μ·(1 − r) is its eigenvalue to first order.

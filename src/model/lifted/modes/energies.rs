@@ -144,6 +144,17 @@ impl Energies {
         }
     }
 
+    /// wᵀKw and wᵀBw, from the deformations of the pieces: exact to a few roundings, where the matrices' entries are large and their products with w
+    /// nearly cancel.
+    pub fn energies(&self, z: &[f64], w: &[f64], pencil: Pencil) -> Result<[f64; 2], EvaluationError> {
+        let mut rows = vec![0.0; self.model.meta().rows()];
+        self.model.constraints(&self.point(z, w), &mut rows)?;
+        let of_diagonal = |diagonal: &Diagonal| diagonal.iter().map(|&(at, value)| value * w[at] * w[at]).sum::<f64>();
+        let stiffness = 2.0 * rows[0] + of_diagonal(&self.springs);
+        let other = 2.0 * rows[self.row(pencil)];
+        Ok([stiffness, if pencil == Pencil::Vibration { other + of_diagonal(&self.masses) } else { -other }])
+    }
+
     /// wᵀS_zw of S = k·K + b·B, by design and displacements.
     pub fn slope(&self, z: &[f64], w: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Vec<f64>, EvaluationError> {
         let pattern = &self.model.meta().jacobian;

@@ -113,6 +113,13 @@ impl Modes {
         self.at(z).values()
     }
 
+    /// μ of a mode as the Rayleigh quotient of its energies: its vector's error goes in squared. 0 where there is none.
+    fn quotient(&self, z: &[f64], pencil: Pencil, spectrum: &Spectrum, at: usize) -> Result<f64, EvaluationError> {
+        let Some(phi) = spectrum.vectors.get(at) else { return Ok(0.0) };
+        let [stiffness, other] = self.energies.energies(z, phi, pencil)?;
+        Ok(other / stiffness)
+    }
+
     fn solution(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Solution, EvaluationError> {
         let (k, b) = (self.energies.matrix(z, pencil, 1.0, 0.0)?, self.energies.matrix(z, pencil, 0.0, 1.0)?);
         let spectrum = spectrum(&k, &b, count).map_err(unsolved)?;
@@ -189,8 +196,8 @@ impl Solved<'_> {
         let modes = self.modes;
         let value = |one: &Eigenvalue| match *one {
             Eigenvalue::Number(pencil, number) => {
-                let mu = self.solution(pencil)?.spectrum.values.get(number as usize - 1).copied().unwrap_or(0.0);
-                Ok(factor(pencil, mu))
+                let solution = self.solution(pencil)?;
+                Ok(factor(pencil, modes.quotient(&self.z, pencil, &solution.spectrum, number as usize - 1)?))
             }
             Eigenvalue::Cut(cut) => self.value_of_cut(cut as usize),
         };
@@ -208,8 +215,8 @@ impl Solved<'_> {
     fn of_number(&mut self, pencil: Pencil, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
         let energies = &self.modes.energies;
         let solution = self.solution(pencil)?;
-        let mu = solution.spectrum.values.get(at).copied().unwrap_or(0.0);
         let z = &self.z;
+        let mu = self.modes.quotient(z, pencil, &solution.spectrum, at)?;
         if factor(pencil, mu) == NEVER {
             return Ok(Smooth { slope: vec![0.0; z.len()], curvature: Vec::new() });
         }
