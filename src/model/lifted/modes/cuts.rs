@@ -31,10 +31,6 @@ impl System {
         let complement = Complement::new(&k.plus(-1.0 / mu, &b), &cut.basis, k).map_err(unsolved)?;
         Ok(System { b, mu, complement })
     }
-
-    fn stationary(&self, cut: &Cut) -> Result<Vec<f64>, EvaluationError> {
-        self.complement.stationary(&cut.direction).map_err(unsolved)
-    }
 }
 
 /// μ as a function of z where r(z, μ) = 0, to be put together from derivatives of r.
@@ -53,7 +49,7 @@ impl Solved<'_> {
         let cut = &self.modes.cuts[at];
         Ok(match cut.level {
             Level::Limit(_) => {
-                let w = system.stationary(cut)?;
+                let w = self.stationary(cut, &system)?;
                 shown(cut.pencil, system.mu, self.remaining(cut, system.mu, &w)?)
             }
             Level::Itself(_) => cut.pencil.shown(system.mu),
@@ -69,9 +65,8 @@ impl Solved<'_> {
         if let Some((_, system)) = self.systems.iter().find(|(other, _)| *other == at || alike(&cuts[*other])) {
             return Ok(Arc::clone(system));
         }
-        let energies = &self.modes.energies;
-        let k = energies.matrix(&self.z, cut.pencil, 1.0, 0.0)?;
-        let b = energies.matrix(&self.z, cut.pencil, 0.0, 1.0)?;
+        let k = self.stiffness(cut.pencil)?;
+        let b = self.modes.energies.matrix(&self.z, cut.pencil, 0.0, 1.0)?;
         let system = match cut.level {
             Level::Limit(limit) => System::new(cut, (&k, b), cut.pencil.inverse(limit))?,
             Level::Itself(near) => self.sought(cut, &k, &b, near)?,
@@ -79,6 +74,15 @@ impl Solved<'_> {
         let system = Arc::new(system);
         self.systems.push((at, Arc::clone(&system)));
         Ok(system)
+    }
+
+    /// w, with a Newton correction for what the pieces' forces leave of S·w beside the columns: S's own product with it nearly cancels.
+    fn stationary(&self, cut: &Cut, system: &System) -> Result<Vec<f64>, EvaluationError> {
+        let mut w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
+        let left = self.modes.energies.times(&self.z, &w, cut.pencil, 1.0, -1.0 / system.mu)?;
+        let correction = system.complement.project(&left).map_err(unsolved)?;
+        w.iter_mut().zip(correction).for_each(|(value, by)| *value -= by);
+        Ok(w)
     }
 
     /// wᵀSw at a level.
@@ -94,7 +98,7 @@ impl Solved<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let system = System::new(cut, (k, b.clone()), mu)?;
-            let w = system.stationary(cut)?;
+            let w = self.stationary(cut, &system)?;
             let [stiffness, other] = self.modes.energies.energies(&self.z, &w, cut.pencil)?;
             let next = other / stiffness;
             let change = (next / mu - 1.0).abs();
@@ -114,7 +118,7 @@ impl Solved<'_> {
     pub(super) fn of_cut(&mut self, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
         let system = self.system(at)?;
         let (energies, cut, mu) = (&self.modes.energies, &self.modes.cuts[at], system.mu);
-        let w = system.stationary(cut)?;
+        let w = self.stationary(cut, &system)?;
         let (pencil, share) = (cut.pencil, -1.0 / mu);
         let implicit = matches!(cut.level, Level::Itself(_));
         let rise = dot(&w, &system.b.times(&w)) / (mu * mu);

@@ -1,7 +1,7 @@
 //! The matrices of buckling and vibration as second derivatives of energies: of strain, of axial forces on inclined axes, of mass.
 //!
-//! Its variables are the design, the displacements of every case, and a mode w: displacements of the free directions of nodes, then of the
-//! ends of inner pieces. Its rows are ½wᵀKw, ½wᵀGw of every case or combination asked for, and ½wᵀMw. So K, G and M are their Hessians
+//! The variables of each are the design, the displacements of every case, and a mode w: displacements of the free directions of nodes, then of
+//! the ends of inner pieces. They are ½wᵀKw, ½wᵀGw of every case or combination asked for, and ½wᵀMw. So K, G and M are their Hessians
 //! in w, and every derivative of the matrices along the design is exact.
 
 use std::sync::Arc;
@@ -20,16 +20,23 @@ use crate::problem::{Constraint, Formula, Problem, Scope};
 
 /// The energies of a structure in a mode.
 pub(super) struct Energies {
-    model: Mapped<RibModel>,
+    /// Of strain, of the axial forces of every case and combination in `sets`, and of mass where that is asked for.
+    kinds: Vec<OneKind>,
     /// Design and displacements: the variables before w.
     before: usize,
-    /// Cases and combinations, in the order of their rows.
+    /// Cases and combinations, in the order of their energies.
     sets: Vec<u32>,
     /// Springs and masses at nodes: what they add to the diagonals of K and M.
     springs: Diagonal,
     masses: Diagonal,
-    /// Where the entries of K, G and M stand, and which of the energies' second derivatives they are.
+    /// Where the entries of K, G and M stand.
     pattern: Arc<Pattern>,
+}
+
+/// One of the energies, as the one row of a model.
+struct OneKind {
+    model: Mapped<RibModel>,
+    /// Which of its second derivatives are entries of the matrices, and which.
     places: Vec<(usize, usize)>,
 }
 
@@ -38,11 +45,11 @@ type Diagonal = Vec<(usize, f64)>;
 
 /// Derivatives of the energies at a mode.
 pub(super) struct Derivatives {
-    /// Of a weighted sum of the energies by design and displacements, twice: wᵀS_zw.
+    /// wᵀS_zw, by design and displacements.
     pub slope: Vec<f64>,
-    /// wᵀS_zz'w, by (z, z') with z' ≤ z.
+    /// wᵀS_zz'w, by (z, z') with z' ≤ z; repeats add up.
     pub curvature: Vec<(usize, usize, f64)>,
-    /// S_z·w, by z: its entries that are not zero.
+    /// S_z·w, by z: its entries that are not zero; repeats add up.
     pub mixed: Vec<Vec<(usize, f64)>>,
 }
 
@@ -60,62 +67,46 @@ impl Energies {
             .chain(sets.iter().map(|&set| (Energy::Prestress, set)))
             .chain(pencils.contains(&Pencil::Vibration).then_some((Energy::Inertia, 0)))
             .collect();
-        let (inner, row_of) = energies_problem(problem, structure, statics, &kinds);
-        let inner = assemble(&Arc::new(inner))?;
-        let mut maps = Maps::default();
         let directions = mode_directions(structure, statics, numbering);
         let before = numbering.states.first_variable + numbering.states.block * numbering.states.blocks;
-        map_inputs(structure, statics, numbering, &sets, &directions, before, &mut maps);
-        for row in 0..kinds.len() {
-            let of_row = row_of.iter().enumerate().filter(|(_, of)| **of == row);
-            maps.outputs.push(of_row.map(|(at, _)| (at as u32, 1.0)).collect::<Vec<_>>());
+        let model = |&kind: &(Energy, u32)| {
+            let inner = assemble(&Arc::new(energy_problem(problem, structure, statics, kind)))?;
+            let mut maps = Maps::default();
+            map_inputs(structure, statics, numbering, &sets, &directions, before, &mut maps);
+            maps.outputs.push((0..inner.meta().rows()).map(|at| (at as u32, 1.0)).collect::<Vec<_>>());
             maps.linear.push([]);
-        }
-        let variables = before + directions.count;
-        let meta = Meta {
-            lower: vec![f64::NEG_INFINITY; variables],
-            upper: vec![f64::INFINITY; variables],
-            start: vec![0.0; variables],
-            row_lower: vec![f64::NEG_INFINITY; kinds.len()],
-            row_upper: vec![f64::INFINITY; kinds.len()],
-            ..Meta::default()
+            Ok(Mapped::new(inner, maps, one_row(before + directions.count)))
         };
-        let model = Mapped::new(inner, maps, meta);
+        let models: Vec<Mapped<RibModel>> = kinds.iter().map(model).collect::<Result<_, AssemblyError>>()?;
+        let pattern = Arc::new(in_mode(&models, before, directions.count));
+        let placed = |model: Mapped<RibModel>| OneKind { places: places(&model.meta().hessian, &pattern, before), model };
+        let kinds = models.into_iter().map(placed).collect();
         let (springs, masses) = at_nodes(structure, &directions);
-        let (pattern, places) = in_mode(&model.meta().hessian, before);
-        Ok(Energies { model, before, sets, springs, masses, pattern, places })
+        Ok(Energies { kinds, before, sets, springs, masses, pattern })
     }
 
     /// Number of displacements in a mode.
     pub fn order(&self) -> usize {
-        self.model.meta().variables() - self.before
+        self.pattern.rows()
     }
 
     /// The variables among design and displacements that a pencil depends on.
     pub fn columns(&self, pencil: Pencil) -> Vec<u32> {
-        let jacobian = &self.model.meta().jacobian;
-        let rows = [0, self.row(pencil)];
-        let mut columns: Vec<u32> =
-            rows.iter().flat_map(|&row| jacobian.row(row)).copied().filter(|&j| (j as usize) < self.before).collect();
+        let parts = self.parts(pencil, 1.0, 1.0);
+        let of_parts = parts.flat_map(|(kind, _)| kind.model.meta().jacobian.columns.iter().copied());
+        let mut columns: Vec<u32> = of_parts.filter(|&j| (j as usize) < self.before).collect();
         columns.sort_unstable();
         columns.dedup();
         columns
     }
 
-    /// The row of B, and its sign there.
-    fn row(&self, pencil: Pencil) -> usize {
-        match pencil {
-            Pencil::Buckling(set) => 1 + self.sets.iter().position(|known| *known == set).unwrap_or(0),
-            Pencil::Vibration => 1 + self.sets.len(),
-        }
-    }
-
-    /// The weights of the rows in k·K + b·B.
-    fn weights(&self, pencil: Pencil, k: f64, b: f64) -> Vec<f64> {
-        let mut weights = vec![0.0; self.model.meta().rows()];
-        weights[0] = k;
-        weights[self.row(pencil)] = if pencil == Pencil::Vibration { b } else { -b };
-        weights
+    /// What k·K + b·B is made of, and each one's share.
+    fn parts(&self, pencil: Pencil, k: f64, b: f64) -> impl Iterator<Item = (&OneKind, f64)> {
+        let (at, share) = match pencil {
+            Pencil::Buckling(set) => (1 + self.sets.iter().position(|known| *known == set).unwrap_or(0), -b),
+            Pencil::Vibration => (1 + self.sets.len(), b),
+        };
+        [(&self.kinds[0], k), (&self.kinds[at], share)].into_iter().filter(|(_, share)| *share != 0.0)
     }
 
     fn point(&self, z: &[f64], w: &[f64]) -> Vec<f64> {
@@ -124,11 +115,13 @@ impl Energies {
 
     /// k·K + b·B.
     pub fn matrix(&self, z: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Matrix, EvaluationError> {
-        let mut values = vec![0.0; self.model.meta().hessian.len()];
         let point = self.point(z, &vec![0.0; self.order()]);
-        self.model.hessian(&point, 0.0, &self.weights(pencil, k, b), &mut values)?;
         let mut matrix = Matrix::zeros(Arc::clone(&self.pattern));
-        self.places.iter().for_each(|&(from, to)| matrix.values[to] = values[from]);
+        for (kind, share) in self.parts(pencil, k, b) {
+            let mut values = vec![0.0; kind.model.meta().hessian.len()];
+            kind.model.hessian(&point, 0.0, &[share], &mut values)?;
+            kind.places.iter().for_each(|&(from, to)| matrix.values[to] += values[from]);
+        }
         self.add(&mut matrix, &self.springs, k);
         if pencil == Pencil::Vibration {
             self.add(&mut matrix, &self.masses, b);
@@ -147,58 +140,99 @@ impl Energies {
     /// wᵀKw and wᵀBw, from the deformations of the pieces: exact to a few roundings, where the matrices' entries are large and their products with w
     /// nearly cancel.
     pub fn energies(&self, z: &[f64], w: &[f64], pencil: Pencil) -> Result<[f64; 2], EvaluationError> {
-        let mut rows = vec![0.0; self.model.meta().rows()];
-        self.model.constraints(&self.point(z, w), &mut rows)?;
+        let point = self.point(z, w);
+        let mut both = [0.0; 2];
+        for (energy, (kind, sign)) in both.iter_mut().zip(self.parts(pencil, 1.0, 1.0)) {
+            let mut row = [0.0];
+            kind.model.constraints(&point, &mut row)?;
+            *energy = 2.0 * sign * row[0];
+        }
         let of_diagonal = |diagonal: &Diagonal| diagonal.iter().map(|&(at, value)| value * w[at] * w[at]).sum::<f64>();
-        let stiffness = 2.0 * rows[0] + of_diagonal(&self.springs);
-        let other = 2.0 * rows[self.row(pencil)];
-        Ok([stiffness, if pencil == Pencil::Vibration { other + of_diagonal(&self.masses) } else { -other }])
+        both[0] += of_diagonal(&self.springs);
+        if pencil == Pencil::Vibration {
+            both[1] += of_diagonal(&self.masses);
+        }
+        Ok(both)
+    }
+
+    /// S·w of S = k·K + b·B, from the forces of the pieces: as exact as [`Energies::energies`].
+    pub fn times(&self, z: &[f64], w: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Vec<f64>, EvaluationError> {
+        let mut whole = self.gradient(z, w, pencil, k, b)?;
+        let mut product = whole.split_off(self.before);
+        self.springs.iter().for_each(|&(at, value)| product[at] += k * value * w[at]);
+        if pencil == Pencil::Vibration {
+            self.masses.iter().for_each(|&(at, value)| product[at] += b * value * w[at]);
+        }
+        Ok(product)
     }
 
     /// wᵀS_zw of S = k·K + b·B, by design and displacements.
     pub fn slope(&self, z: &[f64], w: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Vec<f64>, EvaluationError> {
-        let pattern = &self.model.meta().jacobian;
-        let mut values = vec![0.0; pattern.len()];
-        self.model.jacobian(&self.point(z, w), &mut values)?;
-        let mut whole = vec![0.0; self.model.meta().variables()];
-        pattern.add_transposed(&values, &self.weights(pencil, k, b), &mut whole);
+        let mut whole = self.gradient(z, w, pencil, k, b)?;
         whole.truncate(self.before);
         whole.iter_mut().for_each(|value| *value *= 2.0);
         Ok(whole)
     }
 
+    /// That of the pieces' ½·wᵀSw, by design, displacements and w.
+    fn gradient(&self, z: &[f64], w: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Vec<f64>, EvaluationError> {
+        let point = self.point(z, w);
+        let mut whole = vec![0.0; point.len()];
+        for (kind, share) in self.parts(pencil, k, b) {
+            let pattern = &kind.model.meta().jacobian;
+            let mut values = vec![0.0; pattern.len()];
+            kind.model.jacobian(&point, &mut values)?;
+            pattern.add_transposed(&values, &[share], &mut whole);
+        }
+        Ok(whole)
+    }
+
     /// What S = k·K + b·B changes by, along design and displacements, seen by w.
     pub fn derivatives(&self, z: &[f64], w: &[f64], pencil: Pencil, k: f64, b: f64) -> Result<Derivatives, EvaluationError> {
-        let pattern = &self.model.meta().hessian;
-        let mut values = vec![0.0; pattern.len()];
-        self.model.hessian(&self.point(z, w), 0.0, &self.weights(pencil, k, b), &mut values)?;
+        let point = self.point(z, w);
         let (mut curvature, mut mixed) = (Vec::new(), vec![Vec::new(); self.before]);
-        for ((row, column), value) in pattern.iter().zip(values).filter(|(_, value)| *value != 0.0) {
-            if row < self.before {
-                curvature.push((row, column, 2.0 * value));
-            } else if column < self.before {
-                mixed[column].push((row - self.before, value));
+        for (kind, share) in self.parts(pencil, k, b) {
+            let pattern = &kind.model.meta().hessian;
+            let mut values = vec![0.0; pattern.len()];
+            kind.model.hessian(&point, 0.0, &[share], &mut values)?;
+            for ((row, column), value) in pattern.iter().zip(values).filter(|(_, value)| *value != 0.0) {
+                if row < self.before {
+                    curvature.push((row, column, 2.0 * value));
+                } else if column < self.before {
+                    mixed[column].push((row - self.before, value));
+                }
             }
         }
         Ok(Derivatives { slope: self.slope(z, w, pencil, k, b)?, curvature, mixed })
     }
 }
 
-/// The pattern of second derivatives by the mode, with the whole diagonal, and which of all they are.
-fn in_mode(hessian: &Pattern, before: usize) -> (Arc<Pattern>, Vec<(usize, usize)>) {
-    let own = || hessian.iter().enumerate().filter(|(_, (_, column))| *column >= before);
-    let place = |row: usize, column: usize| ((row - before) as u32, (column - before) as u32);
-    let order = hessian.rows() - before;
-    let mut positions: Vec<(u32, u32)> = own().map(|(_, (row, column))| place(row, column)).collect();
+fn one_row(variables: usize) -> Meta {
+    Meta {
+        lower: vec![f64::NEG_INFINITY; variables],
+        upper: vec![f64::INFINITY; variables],
+        start: vec![0.0; variables],
+        row_lower: vec![f64::NEG_INFINITY],
+        row_upper: vec![f64::INFINITY],
+        ..Meta::default()
+    }
+}
+
+/// The pattern of all second derivatives by the mode, with the whole diagonal.
+fn in_mode(models: &[Mapped<RibModel>], before: usize, order: usize) -> Pattern {
+    let own = models.iter().flat_map(|model| model.meta().hessian.iter());
+    let own = own.filter(|(_, column)| *column >= before);
+    let mut positions: Vec<(u32, u32)> = own.map(|(row, column)| ((row - before) as u32, (column - before) as u32)).collect();
     positions.extend((0..order as u32).map(|at| (at, at)));
-    let pattern = Pattern::from_positions(order, &mut positions);
-    let to = |row, column| {
-        let (row, column) = place(row, column);
-        // Every position was announced above.
-        pattern.position(row as usize, column).unwrap_or_default()
-    };
-    let places = own().map(|(from, (row, column))| (from, to(row, column))).collect();
-    (Arc::new(pattern), places)
+    Pattern::from_positions(order, &mut positions)
+}
+
+/// Which second derivatives are entries of this pattern, and which.
+fn places(hessian: &Pattern, pattern: &Pattern, before: usize) -> Vec<(usize, usize)> {
+    // Every position looked up was announced above.
+    let to = |row: usize, column: usize| pattern.position(row - before, (column - before) as u32).unwrap_or_default();
+    let own = hessian.iter().enumerate().filter(|(_, (_, column))| *column >= before);
+    own.map(|(from, (row, column))| (from, to(row, column))).collect()
 }
 
 /// The cases and combinations whose axial forces count.
@@ -210,31 +244,20 @@ fn buckling_sets(pencils: &[Pencil]) -> Vec<u32> {
     sets
 }
 
-/// One row per piece and kind of energy, and which kind each is.
-fn energies_problem(
-    problem: &Problem,
-    structure: &Structure,
-    statics: &Statics,
-    kinds: &[(Energy, u32)],
-) -> (Problem, Vec<usize>) {
+/// One row per piece.
+fn energy_problem(problem: &Problem, structure: &Structure, statics: &Statics, (energy, set): (Energy, u32)) -> Problem {
     let mut inner =
         Problem { constraints: Vec::new(), objective: Formula::default(), auxiliaries: Vec::new(), ..problem.clone() };
     with_inputs(&mut inner, structure.load_sets() * statics.inputs as usize + 12 * statics.pieces as usize);
     let most = statics.members.iter().map(|member| member.pieces).max().unwrap_or(0);
     let weighs = |material: u32| structure.materials[material as usize].density.is_some();
-    let mut row_of = Vec::new();
-    for (row, &(energy, set)) in kinds.iter().enumerate() {
-        for piece in 0..most {
-            let has =
-                structure.members.iter().zip(&statics.members).filter(|(declared, member)| {
-                    member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material))
-                });
-            let ribs: Vec<u32> = has.map(|(member, _)| member.rib).collect();
-            row_of.extend(std::iter::repeat_n(row, ribs.len()));
-            inner.constraints.push(energy_row(energy, set, piece, ribs));
-        }
+    for piece in 0..most {
+        let has = structure.members.iter().zip(&statics.members).filter(|(declared, member)| {
+            member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material))
+        });
+        inner.constraints.push(energy_row(energy, set, piece, has.map(|(member, _)| member.rib).collect()));
     }
-    (inner, row_of)
+    inner
 }
 
 /// What springs and masses at nodes add to the diagonals of K and M, by direction of a mode.

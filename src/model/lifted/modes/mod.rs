@@ -1,13 +1,9 @@
 //! Eigenvalues as rows of a model over design and displacements.
-//!
-//! With φᵀKφ = 1 and D_z = B_z − μK_z, a simple μ of B φ = μ K φ has μ_z = φᵀD_zφ and
-//! μ_zz' = φᵀ(B_zz' − μK_zz')φ − μ_z·φᵀK_z'φ − μ_z'·φᵀK_zφ + 2·Σ_j (φ_jᵀD_zφ)(φ_jᵀD_z'φ)/(μ − μ_j)
-//! (Nelson 1976; Haug, Choi and Komkov, *Design Sensitivity Analysis of Structural Systems*, 1986). Displacements are among the z: through
-//! them the prestress changes with the design.
 
 mod cuts;
 mod directions;
 mod energies;
+mod single;
 mod smooth;
 mod with_modes;
 
@@ -15,20 +11,17 @@ pub(super) use with_modes::WithModes;
 
 use super::Numbering;
 use crate::linear_algebra::FactorizationError;
-use crate::linear_algebra::pencil::{Complement, Matrix, Spectrum, spectrum};
+use crate::linear_algebra::pencil::{Matrix, Spectrum, spectrum};
 use crate::model::{AssemblyError, EvaluationError};
 use crate::problem::Problem;
 use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
 use crate::problem::statics::Statics;
 use crate::problem::structure::Structure;
 use cuts::System;
-use energies::{Derivatives, Energies};
-use smooth::{Smooth, chained, turned};
+use energies::Energies;
+use single::Single;
+use smooth::Smooth;
 use std::sync::Arc;
-
-/// Of two values of μ that are nearer than this, relative to the larger, it cannot be said which mode is which: what bends one of them
-/// against the other is no curvature of a smooth function, and is left out. [`Cut`]s are smooth there.
-const COINCIDENT: f64 = 1e-6;
 
 /// Eigenvalues looked at beyond the last asked for, as they may coincide with it.
 const BESIDE: usize = 4;
@@ -44,14 +37,17 @@ pub struct Modes {
 struct Solved<'m> {
     modes: &'m Modes,
     z: Vec<f64>,
+    stiffness: Option<Arc<Matrix>>,
     solutions: Vec<(Pencil, Arc<Solution>)>,
+    /// Single modes with their derivatives, by pencil and place.
+    singles: Vec<(Pencil, usize, Arc<Single>)>,
     /// What cuts of one cluster share, by the first of them asked about.
     systems: Vec<(usize, Arc<System>)>,
 }
 
 /// The matrices of a pencil, and their modes.
 struct Solution {
-    k: Matrix,
+    k: Arc<Matrix>,
     b: Matrix,
     spectrum: Spectrum,
 }
@@ -94,7 +90,7 @@ impl Modes {
     }
 
     fn at<'m>(&'m self, z: &[f64]) -> Solved<'m> {
-        Solved { modes: self, z: z.to_vec(), solutions: Vec::new(), systems: Vec::new() }
+        Solved { modes: self, z: z.to_vec(), stiffness: None, solutions: Vec::new(), singles: Vec::new(), systems: Vec::new() }
     }
 
     /// The largest μ of a pencil and their φ at design and displacements, at least `count` where there are as many above zero.
@@ -102,7 +98,8 @@ impl Modes {
     /// # Errors
     /// The structure is a mechanism, or a matrix has no value.
     pub fn spectrum(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Spectrum, EvaluationError> {
-        self.solution(z, pencil, count).map(|solution| solution.spectrum)
+        let k = Arc::new(self.energies.matrix(z, pencil, 1.0, 0.0)?);
+        self.solution(z, pencil, count, k).map(|solution| solution.spectrum)
     }
 
     /// The values asked for at design and displacements, as users know them; [`NEVER`] where so many modes do not buckle.
@@ -113,15 +110,8 @@ impl Modes {
         self.at(z).values()
     }
 
-    /// μ of a mode as the Rayleigh quotient of its energies: its vector's error goes in squared. 0 where there is none.
-    fn quotient(&self, z: &[f64], pencil: Pencil, spectrum: &Spectrum, at: usize) -> Result<f64, EvaluationError> {
-        let Some(phi) = spectrum.vectors.get(at) else { return Ok(0.0) };
-        let [stiffness, other] = self.energies.energies(z, phi, pencil)?;
-        Ok(other / stiffness)
-    }
-
-    fn solution(&self, z: &[f64], pencil: Pencil, count: usize) -> Result<Solution, EvaluationError> {
-        let (k, b) = (self.energies.matrix(z, pencil, 1.0, 0.0)?, self.energies.matrix(z, pencil, 0.0, 1.0)?);
+    fn solution(&self, z: &[f64], pencil: Pencil, count: usize, k: Arc<Matrix>) -> Result<Solution, EvaluationError> {
+        let b = self.energies.matrix(z, pencil, 0.0, 1.0)?;
         let spectrum = spectrum(&k, &b, count).map_err(unsolved)?;
         Ok(Solution { k, b, spectrum })
     }
@@ -170,35 +160,30 @@ fn unsolved(cause: FactorizationError) -> EvaluationError {
     EvaluationError::Invalid { term: "modes of the structure".into(), cause }
 }
 
-impl Solution {
-    /// B − μK on the complement of a mode and of those that coincide with it.
-    fn complement(&self, at: usize) -> Result<Complement, EvaluationError> {
-        let Spectrum { values, vectors } = &self.spectrum;
-        let mu = values[at];
-        let coincides = |other: f64| (mu - other).abs() <= COINCIDENT * mu.max(other);
-        let beside = values.iter().zip(vectors).filter(|(other, _)| coincides(**other));
-        let columns: Vec<Vec<f64>> = beside.map(|(_, vector)| self.k.times(vector)).collect();
-        Complement::new(&self.b.plus(-mu, &self.k), &columns, &self.k).map_err(unsolved)
-    }
-}
-
 impl Solved<'_> {
     fn solution(&mut self, pencil: Pencil) -> Result<Arc<Solution>, EvaluationError> {
         if let Some((_, known)) = self.solutions.iter().find(|(known, _)| *known == pencil) {
             return Ok(Arc::clone(known));
         }
-        let solution = Arc::new(self.modes.solution(&self.z, pencil, self.modes.needed(pencil))?);
+        let k = self.stiffness(pencil)?;
+        let solution = Arc::new(self.modes.solution(&self.z, pencil, self.modes.needed(pencil), k)?);
         self.solutions.push((pencil, Arc::clone(&solution)));
         Ok(solution)
+    }
+
+    /// K: every pencil's is the same.
+    fn stiffness(&mut self, pencil: Pencil) -> Result<Arc<Matrix>, EvaluationError> {
+        if let Some(known) = &self.stiffness {
+            return Ok(Arc::clone(known));
+        }
+        let k = Arc::new(self.modes.energies.matrix(&self.z, pencil, 1.0, 0.0)?);
+        Ok(Arc::clone(self.stiffness.insert(k)))
     }
 
     fn values(&mut self) -> Result<Vec<f64>, EvaluationError> {
         let modes = self.modes;
         let value = |one: &Eigenvalue| match *one {
-            Eigenvalue::Number(pencil, number) => {
-                let solution = self.solution(pencil)?;
-                Ok(factor(pencil, modes.quotient(&self.z, pencil, &solution.spectrum, number as usize - 1)?))
-            }
+            Eigenvalue::Number(pencil, number) => self.value_of_number(pencil, number as usize - 1),
             Eigenvalue::Cut(cut) => self.value_of_cut(cut as usize),
         };
         modes.wanted.iter().map(value).collect()
@@ -210,34 +195,6 @@ impl Solved<'_> {
             Eigenvalue::Number(pencil, number) => self.of_number(pencil, number as usize - 1, curved),
             Eigenvalue::Cut(cut) => self.of_cut(cut as usize, curved),
         }
-    }
-
-    fn of_number(&mut self, pencil: Pencil, at: usize, curved: bool) -> Result<Smooth, EvaluationError> {
-        let energies = &self.modes.energies;
-        let solution = self.solution(pencil)?;
-        let z = &self.z;
-        let mu = self.modes.quotient(z, pencil, &solution.spectrum, at)?;
-        if factor(pencil, mu) == NEVER {
-            return Ok(Smooth { slope: vec![0.0; z.len()], curvature: Vec::new() });
-        }
-        let phi = &solution.spectrum.vectors[at];
-        let [first, second] = pencil.slopes(mu);
-        if !curved {
-            let slope = energies.slope(z, phi, pencil, -mu, 1.0)?;
-            return Ok(chained(slope, Vec::new(), &[], first, second));
-        }
-        let stiffness = energies.slope(z, phi, pencil, 1.0, 0.0)?;
-        let Derivatives { slope, mut curvature, mixed } = energies.derivatives(z, phi, pencil, -mu, 1.0)?;
-        let complement = solution.complement(at)?;
-        let active: Vec<usize> =
-            (0..slope.len()).filter(|&z| slope[z] != 0.0 || stiffness[z] != 0.0 || !mixed[z].is_empty()).collect();
-        for (at, &i) in active.iter().enumerate() {
-            for &j in &active[..=at] {
-                curvature.push((i, j, -slope[i] * stiffness[j] - slope[j] * stiffness[i]));
-            }
-        }
-        turned(&complement, &mixed, &mut curvature).map_err(unsolved)?;
-        Ok(chained(slope, curvature, &active, first, second))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::linear_algebra::pencil::Complement;
 /// A value and its derivatives along design and displacements.
 pub(super) struct Smooth {
     pub slope: Vec<f64>,
-    /// By (z, z') with z' ≤ z.
+    /// By (z, z') with z' ≤ z; repeats add up.
     pub curvature: Vec<(usize, usize, f64)>,
 }
 
@@ -20,7 +20,7 @@ pub(super) fn turned(
     let moving: Vec<usize> = (0..mixed.len()).filter(|&z| !mixed[z].is_empty()).collect();
     for (at, &i) in moving.iter().enumerate() {
         let mut column = vec![0.0; order];
-        mixed[i].iter().for_each(|&(row, value)| column[row] = value);
+        mixed[i].iter().for_each(|&(row, value)| column[row] += value);
         let projected = complement.project(&column)?;
         for &j in &moving[..=at] {
             let seen: f64 = mixed[j].iter().map(|&(row, value)| value * projected[row]).sum();
