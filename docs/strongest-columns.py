@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/strongest-columns.svg: examples/modes/strongest-pinned-column.toml and examples/modes/strongest-column.toml as sized, with their lowest modes.
+"""Draws docs/strongest-columns.svg: problems/strongest-pinned-column.toml and problems/strongest-column.toml as sized, with their lowest modes.
 
 usage: strongest-columns.py BINARY      (from the root of the repository)
 """
@@ -95,7 +95,7 @@ def column(x, pieces, answer, clamped):
     return "\n".join(parts)
 
 
-drawn = [column(110, *areas("examples/modes/strongest-pinned-column.toml"), False), column(390, *areas("examples/modes/strongest-column.toml"), True)]
+drawn = [column(110, *areas("problems/strongest-pinned-column.toml"), False), column(390, *areas("problems/strongest-column.toml"), True)]
 with open(OUT, "w", encoding="utf-8") as file:
     file.write(f'''<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 {TOP + HEIGHT + 80}" font-family="sans-serif" font-size="13">
 <rect width="100%" height="100%" fill="white"/>

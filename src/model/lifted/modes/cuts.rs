@@ -49,7 +49,7 @@ impl Solved<'_> {
         let cut = &self.modes.cuts[at];
         Ok(match cut.level {
             Level::Limit(_) => {
-                let w = self.stationary(cut, &system)?;
+                let w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
                 shown(cut.pencil, system.mu, self.remaining(cut, system.mu, &w)?)
             }
             Level::Itself(_) => cut.pencil.shown(system.mu),
@@ -76,7 +76,8 @@ impl Solved<'_> {
         Ok(system)
     }
 
-    /// w, with a Newton correction for what the pieces' forces leave of S·w beside the columns: S's own product with it nearly cancels.
+    /// w, with a Newton correction for what the pieces' forces leave of S·w beside the columns: S's own product with it nearly cancels. Energies
+    /// take the error of the first w squared, and need no correction; derivatives take it as it is.
     fn stationary(&self, cut: &Cut, system: &System) -> Result<Vec<f64>, EvaluationError> {
         let mut w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
         let left = self.modes.energies.times(&self.z, &w, cut.pencil, 1.0, -1.0 / system.mu)?;
@@ -98,7 +99,7 @@ impl Solved<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let system = System::new(cut, (k, b.clone()), mu)?;
-            let w = self.stationary(cut, &system)?;
+            let w = system.complement.stationary(&cut.direction).map_err(unsolved)?;
             let [stiffness, other] = self.modes.energies.energies(&self.z, &w, cut.pencil)?;
             let next = other / stiffness;
             let change = (next / mu - 1.0).abs();
