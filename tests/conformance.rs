@@ -11,10 +11,8 @@ use ribopt::run::{Choice, Subject};
 use support::{Promise, diagnosis, name, problem_files, read, solve};
 
 /// Backend, problem, and why the one need not solve the other.
-const EXCLUDED: &[(&str, &str, &str)] = &[
-    ("nlopt", "strongest-column", COINCIDING),
-    ("nlopt", "ten-bar-frequencies", COINCIDING),
-];
+const EXCLUDED: &[(&str, &str, &str)] =
+    &[("nlopt", "strongest-column", COINCIDING), ("nlopt", "ten-bar-frequencies", COINCIDING)];
 
 /// NLopt finds these optima to eleven digits, but stops by the objective's change before the multipliers of coinciding modes settle.
 const COINCIDING: &str = "modes coincide at the optimum: SLSQP's point is not stationary to the tolerance";

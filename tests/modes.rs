@@ -217,7 +217,10 @@ fn coinciding_frequencies_beside_a_variable_are_certified() {
     let square = (TAU * x).powi(2);
     let slope = mass * bar / (bar - 2.0 * square * 2700.0 / 3.0).powi(2) * 2.0 * TAU * TAU * x;
     let text = cross("{ lower = 1e-6, start = 1e-3 }")
-        .replace("p.A + q.A\"", &format!("p.A + q.A - {:?}*x\"\n[variables]\nx = {{ lower = 1, upper = 100, start = 20 }}", 2.0 * slope))
+        .replace(
+            "p.A + q.A\"",
+            &format!("p.A + q.A - {:?}*x\"\n[variables]\nx = {{ lower = 1, upper = 100, start = 20 }}", 2.0 * slope),
+        )
         .replace("frequency(1) >= 30", "frequency(1) >= x");
     let found: Outcome = outcome(&read("beside", &text)).unwrap();
     assert_eq!(found.status, Status::Certified, "{}", found.message);

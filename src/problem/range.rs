@@ -48,7 +48,9 @@ impl Ranges {
                 self.joined(problem, *fold, list.into_iter().map(|item| (&**body, item)))
             }
             // Eigenvalues are those above zero.
-            Formula::Response(response) if response.eigenvalue().is_some() => Interval { lower: f64::MIN_POSITIVE, upper: f64::INFINITY },
+            Formula::Response(response) if response.eigenvalue().is_some() => {
+                Interval { lower: f64::MIN_POSITIVE, upper: f64::INFINITY }
+            }
             Formula::RibVolume(_) | Formula::Volume(_) | Formula::OwnVolume | Formula::Profile(..) => Interval::WHOLE,
             number => Evaluation::constants(problem).value(number, item).map_or(Interval::WHOLE, Interval::point),
         }

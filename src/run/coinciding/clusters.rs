@@ -126,7 +126,8 @@ pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<boo
     let (z, tolerance) = (model.solved(x)?, cut.settings.constraint_tolerance);
     let (modes, wanted) = (model.lifted().modes()?, eigenvalues(cut.problem()));
     let values = modes.values(&z)?;
-    for (_, followed) in of.iter().enumerate().filter(|(at, one)| !matches!(one, Followed::Limit(_)) && !of[..*at].contains(one)) {
+    for (_, followed) in of.iter().enumerate().filter(|(at, one)| !matches!(one, Followed::Limit(_)) && !of[..*at].contains(one))
+    {
         let own = |one: &Eigenvalue| matches!(*one, Eigenvalue::Cut(cut) if of[cut as usize] == *followed);
         let seen = wanted.iter().zip(&values).filter(|(one, _)| own(one)).map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
         let Least { pencil, number } = followed.eigenvalue();

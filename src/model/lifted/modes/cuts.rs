@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use super::energies::Derivatives;
-use super::smooth::{Smooth, chained, turned};
+use super::smooth::{Curvature, Smooth, chained, turned};
 use super::{Solved, dot, unsolved};
 use crate::linear_algebra::pencil::{Complement, Matrix};
 use crate::model::EvaluationError;
@@ -164,11 +164,7 @@ impl Implicit {
     }
 
     /// μ_z = −r_z/r_μ and μ_zz' = −(r_zz' + r_zμ·μ_z' + r_z'μ·μ_z + r_μμ·μ_z·μ_z')/r_μ, and the z that μ depends on.
-    fn put_together(
-        &self,
-        slope: Vec<f64>,
-        mut curvature: Vec<(usize, usize, f64)>,
-    ) -> (Vec<f64>, Vec<(usize, usize, f64)>, Vec<usize>) {
+    fn put_together(&self, slope: Vec<f64>, mut curvature: Curvature) -> (Vec<f64>, Curvature, Vec<usize>) {
         let slope: Vec<f64> = slope.into_iter().map(|value| -value / self.rise).collect();
         let active: Vec<usize> = (0..slope.len()).filter(|&z| slope[z] != 0.0 || self.mixed[z] != 0.0).collect();
         for (at, &i) in active.iter().enumerate() {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::super::{Numbering, with_inputs};
 use super::directions::{Directions, map_inputs, mode_directions};
+use super::smooth::Curvature;
 use crate::linear_algebra::Pattern;
 use crate::linear_algebra::pencil::Matrix;
 use crate::model::views::mapped::{Mapped, Maps};
@@ -48,7 +49,7 @@ pub(super) struct Derivatives {
     /// wᵀS_zw, by design and displacements.
     pub slope: Vec<f64>,
     /// wᵀS_zz'w, by (z, z') with z' ≤ z; repeats add up.
-    pub curvature: Vec<(usize, usize, f64)>,
+    pub curvature: Curvature,
     /// S_z·w, by z: its entries that are not zero; repeats add up.
     pub mixed: Vec<Vec<(usize, f64)>>,
 }
@@ -252,9 +253,11 @@ fn energy_problem(problem: &Problem, structure: &Structure, statics: &Statics, (
     let most = statics.members.iter().map(|member| member.pieces).max().unwrap_or(0);
     let weighs = |material: u32| structure.materials[material as usize].density.is_some();
     for piece in 0..most {
-        let has = structure.members.iter().zip(&statics.members).filter(|(declared, member)| {
-            member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material))
-        });
+        let has = structure
+            .members
+            .iter()
+            .zip(&statics.members)
+            .filter(|(declared, member)| member.pieces > piece && (energy != Energy::Inertia || weighs(declared.material)));
         inner.constraints.push(energy_row(energy, set, piece, has.map(|(member, _)| member.rib).collect()));
     }
     inner
