@@ -13,6 +13,20 @@ const PLACES: &[&str] =
     &["src", "docs", "tests", "examples", "benches", "fuzz", "problems", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"];
 const ENDINGS: &[&str] = &["rs", "md", "toml", "py", "csv"];
 
+/// The table of numbers in docs/certificate.md is that of the code.
+#[test]
+fn what_the_certificate_measures_by_is_written_down() {
+    let page = fs::read_to_string(root().join("docs/certificate.md")).unwrap();
+    let written: Vec<&str> = page.lines().filter(|line| line.starts_with("| `")).collect();
+    let row = |parameter: &ribopt::math::parameters::Parameter| {
+        let meaning = parameter.meaning.trim().replace('|', "\\|");
+        format!("| `{}.{}` | {} | {meaning} |", parameter.group, parameter.name, (parameter.value)())
+    };
+    let wanted: Vec<String> = ribopt::report::measured_by::all().map(row).collect();
+    let missing: Vec<&str> = wanted.iter().map(String::as_str).filter(|row| !written.contains(row)).collect();
+    assert!(missing.is_empty() && written.len() == wanted.len(), "the table should be\n{}", wanted.join("\n"));
+}
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }

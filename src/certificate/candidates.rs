@@ -1,6 +1,7 @@
 //! Limits close enough to carry a multiplier.
 
 use super::point::Point;
+use crate::certificate::parameters::multipliers::REACH;
 
 /// What a multiplier belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,9 +27,6 @@ impl Candidate {
         self.sign == 0.0 || self.sign * multiplier > 0.0
     }
 }
-
-/// Scaled distances beyond this cannot carry a multiplier that matters: with complementarity within 1e−6 it would be below 1e−3.
-const REACH: f64 = 1e-3;
 
 /// The rows with a side within reach, ascending. Rows whose gradient vanishes push nowhere and are left out.
 pub(super) fn near_rows(point: &Point<'_>) -> Vec<usize> {

@@ -6,15 +6,8 @@
 
 use super::point::{Origin, Point};
 use super::scales;
+use crate::certificate::parameters::infeasibility::{REACH, STEPS, TOUCH};
 use crate::model::{EvaluationError, Model};
-
-/// Variables are followed this many times their size from x, open or not: the rows' terms then are so large that the constraint
-/// tolerance (1e−8 by default), taken of them, hides any violation the terms at x could show.
-const REACH: f64 = 1e7;
-/// A variable this close to a bound, relative to its size, rests on it.
-const TOUCH: f64 = 1e-6;
-/// Steps of conjugate gradients towards multipliers that balance; each takes off a good part of the rest.
-const STEPS: usize = 60;
 
 /// Multipliers whose combination of rows no point of the box can meet.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,18 +5,7 @@ use super::known_sizes;
 use super::point::{Origin, Point};
 use super::residuals::{Place, Worst, worse};
 use super::second_order::Kkt;
-
-/// A variable this many times its known size is far away.
-const FAR: f64 = 10.0;
-/// Newton steps, and how often one is computed anew without variables that bounds hold.
-const STEPS: usize = 6;
-const PASSES: usize = 4;
-/// How far, relative to the variables' sizes, a point beside one far from the start may be.
-const BESIDE: f64 = 1e-3;
-/// Roundings in a row's value.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-/// Violations this many times what a step of the tolerance in every variable makes of a row are worth no look beside.
-const WORTH_A_LOOK: f64 = 10.0;
+use crate::certificate::parameters::feasibility::{BESIDE, FAR, LARGEST, PASSES, ROUNDINGS, STEPS, WORTH_A_LOOK};
 
 /// How well a point meets rows and bounds.
 pub(super) struct Feasibility {
@@ -39,9 +28,6 @@ pub(super) fn of(point: &Point<'_>, tolerance: f64) -> Feasibility {
         None => Feasibility { infeasibility: worst, only_far_away: false },
     }
 }
-
-/// Variables and rows up to which places are led back to the rows: a few sparse factorisations each.
-const LARGEST: usize = 2_000;
 
 /// The point itself where it meets every limit, else one that does within `reach` of the variables' sizes at the point.
 pub(super) fn nearest(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64) -> Option<Vec<f64>> {

@@ -5,9 +5,7 @@ use super::multipliers::{self, Multipliers, Taken};
 use super::point::{self, Point};
 use super::residuals::{self, worst_slope};
 use super::types::{Certificate, Tolerances};
-
-/// A witness that leaves more than this of the objective's slope is no start for a refinement: the search takes over.
-const REFINABLE: f64 = 1e-2;
+use crate::certificate::parameters::multipliers::REFINABLE;
 
 /// Multipliers and first-order residuals: a witness that passes, refined where that helps, spares the search.
 pub(super) fn found(

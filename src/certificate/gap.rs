@@ -5,15 +5,8 @@
 use super::feasibility::step_back;
 use super::multipliers::Multipliers;
 use super::point::Point;
+use crate::certificate::parameters::gap::{HONEST, ROUNDED, ROUNDINGS};
 use crate::model::Model;
-
-/// A gap below this many roundings of the objective is none.
-const ROUNDINGS: f64 = 1e3 * f64::EPSILON;
-/// Roundings of a row's terms or of a limit.
-const ROUNDED: f64 = 32.0 * f64::EPSILON;
-/// On half the way to the limits the objective falls by half the gap; by more than this times that where the slope grows on the
-/// way. (A power p < 1 of the distance falls by (1 − 2^−p)/(p/2) times as much: 1.17 for a square root, 1.05 for p = 0.85.)
-const HONEST: f64 = 1.05;
 
 /// What moving on to the limits gains, over the objective's own magnitude, where the slope at the point does not hold on the way;
 /// `None` where it does, or nothing is to be gained.

@@ -5,12 +5,8 @@
 use super::multipliers::Multipliers;
 use super::point::Point;
 use crate::certificate::Side;
+use crate::certificate::parameters::idle_rows::{MOST, TRIED};
 use crate::model::{EvaluationError, Model};
-
-/// Such rows looked at.
-const MOST: usize = 8;
-/// Multipliers tried, in units of what bends the row as much as the objective: −4xy beside xy ≤ 0 needs one of 2 such units.
-const TRIED: [f64; 4] = [1.0, 4.0, 16.0, 256.0];
 
 /// A row and the sign its multiplier may have.
 pub(super) type Idle = (usize, f64);

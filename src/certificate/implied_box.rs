@@ -4,11 +4,7 @@
 
 use super::point::Point;
 use super::row_range::{End, range};
-
-/// Sweeps over all rows at the most.
-const SWEEPS: usize = 12;
-/// Slack of every linear row, relative to the magnitudes it is summed from: far more than rounding.
-const SLACK: f64 = 1e-9;
+use crate::certificate::parameters::infeasibility::{BOX_SWEEPS, SLACK};
 
 /// A linear row lower ≤ Σ coefficient·v ≤ upper in v = x − x̂.
 struct Line {
@@ -24,7 +20,7 @@ pub(super) fn around(point: &Point<'_>) -> (Vec<f64>, Vec<f64>) {
     let difference = |bounds: &[f64]| bounds.iter().zip(point.x).map(|(bound, x)| bound - x).collect::<Vec<_>>();
     let (mut lower, mut upper) = (difference(&meta.lower), difference(&meta.upper));
     let lines = lines(point);
-    for _ in 0..SWEEPS {
+    for _ in 0..BOX_SWEEPS {
         let mut changed = false;
         for line in &lines {
             changed |= tighten(line, &mut lower, &mut upper);

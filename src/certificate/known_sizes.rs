@@ -3,16 +3,8 @@
 
 use super::point::Origin;
 use super::scales::{largest_limit, moved};
+use crate::certificate::parameters::sizes::{BENT, SHRINKINGS, SHRUNK, UNTOLD};
 use crate::model::{Meta, Model};
-
-/// Over a step of the sizes that a row's limit tells its slope may grow, or be without a value, to so many times what tells them.
-const BENT: f64 = 4.0;
-/// A size that a row's own bend contradicts is divided by the fourth root of the contradiction, which overshoots for no power up to
-/// the fourth, and by no more than this at a time; so often at the most.
-const SHRUNK: f64 = 1e-3;
-const SHRINKINGS: usize = 24;
-/// Where no slope tells a size shrinking begins beyond what a model means, few steps of SHRUNK from any size.
-const UNTOLD: f64 = 1e30;
 
 /// d_j: |x_j|, or, where the bounds allow 0 and x_j is smaller than that, the size that is known of the variable otherwise: the
 /// least of what a row's limit says (|limit|/|∂c_i/∂x_j|), of the start that was given (where none was: of a bound), and of

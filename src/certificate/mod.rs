@@ -15,6 +15,7 @@ mod lower_bound;
 mod messages;
 mod multipliers;
 mod newton;
+pub mod parameters;
 mod point;
 mod propagation;
 mod residuals;
@@ -26,6 +27,7 @@ mod second_order;
 mod tests;
 mod types;
 
+use crate::certificate::parameters::sizes::PROPORTION;
 use feasibility::worst_violation;
 use first_order::is_stationary;
 use std::time::Instant;
@@ -44,10 +46,6 @@ pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
 pub use types::{Certificate, Extent, Side, Tolerances};
-
-/// The slope about a point counts up to so many times that at the point, which makes every direction there a flat one: a function
-/// as steep as x⁶⁰ has any slope about it.
-const PROPORTION: f64 = 1e3;
 
 /// Certifies `x`. `guess`, a solver's row multipliers, is a witness: tried first, and worth what the residuals computed from it
 /// say.

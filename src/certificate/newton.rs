@@ -7,29 +7,14 @@
 use super::feasibility::worst_violation;
 use super::point::Point;
 use super::residuals::last_digits;
-use super::runaway::{LARGEST, held_rows};
+use super::runaway::held_rows;
 use super::scales;
 use super::second_order::{Active, Choice};
+use crate::certificate::parameters::higher_order::STRETCH;
+use crate::certificate::parameters::newton::{LENGTH, LOWER, MOVED, NEARLY_ALL, NOISE, SHRUNK, SOON, STEPS};
+use crate::certificate::parameters::runaway::LARGEST;
 use crate::model::Model;
 use crate::recession::{self, Site};
-
-/// Steps taken, and those by which they must have shrunk to less than SHRUNK times the first where they lead nowhere: towards
-/// x^p = 0 they shrink by 1 − 1/(p − 1) each, towards the infimum of exp(−x) not at all.
-const STEPS: usize = 40;
-const SOON: usize = 8;
-const SHRUNK: f64 = 0.8;
-/// Steps below this, in sizes, are what the accepted slope and rounding make.
-const LENGTH: f64 = 1e-14;
-/// A variable that is seen at the point has moved where it has changed by more than this: the accepted slope of 1e−6 leaves a
-/// point 1e−4 away where the Lagrangian bends by a hundredth of σ.
-const MOVED: f64 = 1e-3;
-/// Directions are stretched by this: further runs start at a tenth of them.
-const STRETCH: f64 = 10.0;
-/// The objective is lower where it has fallen by more than this share of itself, and by so many times what the last digits of the
-/// point make of it. Where it has fallen by nearly all of itself its minimum may be 0, and any share says nothing.
-const LOWER: f64 = 1e-3;
-const NEARLY_ALL: f64 = 0.99;
-const NOISE: f64 = 100.0;
 
 /// What Newton's steps say of a point.
 pub(super) enum Newton {

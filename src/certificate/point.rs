@@ -2,6 +2,7 @@
 
 mod curvature;
 
+use crate::certificate::parameters::feasibility::ROUNDED;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
@@ -11,9 +12,6 @@ use super::scales::{self, RowTerms};
 use crate::certificate::Side;
 use crate::linear_algebra::FactorizationError;
 use crate::model::{Budget, EvaluationError, Evaluator, Meta, Model};
-
-/// Roundings that the value of a row may hold, in units of the sum of its terms.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// A model ready to have points judged.
 pub(super) struct Origin<'a> {
@@ -145,7 +143,7 @@ impl<'a> Point<'a> {
         }
         let terms = self.row_term(i);
         let summed = terms.max(self.fixed_term(i)) * self.meta().jacobian.row(i).len() as f64;
-        let rounding = ROUNDINGS * (limit.abs() + summed);
+        let rounding = ROUNDED * (limit.abs() + summed);
         if violation <= rounding {
             return 0.0;
         }

@@ -2,13 +2,8 @@
 //! tightening). A contradiction found so is a theorem, wherever solvers end.
 
 use super::row_range::{End, range};
+use crate::certificate::parameters::infeasibility::{EASE, SWEEPS};
 use crate::model::Model;
-
-/// Sweeps over all rows at the most.
-const SWEEPS: usize = 10;
-/// Every limit and bound gives way by so many constraint tolerances of the magnitudes around it, so that no point within
-/// the tolerances is ruled out.
-const EASE: f64 = 4.0;
 
 /// lower ≤ Σ a_j·x_j ≤ upper
 struct Line {

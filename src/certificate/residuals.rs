@@ -3,6 +3,7 @@
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::second_order;
+use crate::certificate::parameters::rounding::DIGITS;
 use crate::linear_algebra::Partition;
 use crate::math::split_mix::SplitMix;
 use crate::model::{EvaluationError, Model};
@@ -54,9 +55,6 @@ pub(super) fn lost_in_rounding(point: &Point<'_>, multipliers: &Multipliers) -> 
     let free = (0..total.len()).filter(|&j| !point.meta().is_fixed(j));
     free.fold(0.0, |most: f64, j| most.max(f64::EPSILON * total[j] * point.sizes[j] / point.sigma))
 }
-
-/// Last digits by which the point is moved to see what rounding makes of the objective.
-const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
 
 /// What the last digits of x make of the objective, in units of σ, beyond rounding of its value: where that is more than what is
 /// accepted of a slope, its terms cancel one another and its derivatives may be anything.

@@ -6,24 +6,11 @@ use super::higher_order::Trial;
 use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
 use super::{Class, Tolerances};
+use crate::certificate::parameters::runaway::{
+    DIRECTIONS, FAR, FLAT, FOLLOWED, LARGEST, LARGEST_FOR_DIRECTIONS, OUTWARDS, PARALLEL,
+};
 use crate::model::{EvaluationError, Model};
 use crate::recession::{self, Fall, Ray, Site, Valley};
-
-/// Directions that bend by less than this, in units of σ, are looked at.
-const FLAT: f64 = 1e-3;
-const DIRECTIONS: usize = 12;
-/// Variables followed at the most.
-const FOLLOWED: usize = 12;
-/// Variables followed from a point that is not stationary, or because they are so many of their sizes away from the start.
-const OUTWARDS: usize = 3;
-const FAR: f64 = 1e3;
-/// Gradients, each divided by its largest entry in units of the variables' sizes, are parallel where they differ by no more.
-const PARALLEL: f64 = 1e-9;
-/// Above this order (variables and rows) the other variables stay where they are while one is followed: a Newton step on dense
-/// matrices of order N takes N³ operations, and some thousand steps are taken.
-pub(super) const LARGEST: usize = 120;
-/// Above this order, flat directions are those of single variables.
-const LARGEST_FOR_DIRECTIONS: usize = 2_000;
 
 /// Variables along whose way the objective falls, however far one goes; none at a true minimum.
 #[derive(Debug, Default)]

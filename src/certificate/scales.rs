@@ -3,11 +3,9 @@
 //! Sizes that are not seen at the point: `known_sizes`.
 
 use super::point::{Origin, Point};
+use crate::certificate::parameters::sizes::ABOUT;
 use crate::math::split_mix::SplitMix;
 use crate::model::{Meta, Model};
-
-/// Relative steps to places about a point, the first at which the model has a value is taken.
-const ABOUT: [f64; 3] = [0.1, 1e-2, 1e-3];
 
 /// Which variables have no size but the 1 that stands for want of anything better: none at the point, no start, no bound and no
 /// row's limit tells.

@@ -243,6 +243,9 @@ pub struct Verify {
     /// Print the result as one JSON object on standard output
     #[arg(long)]
     pub json: bool,
+    /// After it, the numbers the certificate measures by, each with its inequality
+    #[arg(long, conflicts_with = "json")]
+    pub parameters: bool,
     #[command(flatten)]
     pub changes: Changes,
     #[command(flatten)]

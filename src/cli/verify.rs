@@ -3,8 +3,9 @@
 use super::arguments::Verify;
 use super::failure::Failure;
 use super::{output, reading};
+use ribopt::certificate::Tolerances;
 use ribopt::crosscheck::Status;
-use ribopt::report::{Findings, result, summary};
+use ribopt::report::{Findings, measured_by, result, summary};
 use ribopt::run::verify::verify;
 use ribopt::run::{sizes, utilisation};
 
@@ -19,5 +20,9 @@ pub fn run(arguments: &Verify) -> Result<u8, Failure> {
     let (about, model, class) = (&subject.about, subject.shown(), subject.class());
     let findings = Findings { about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
     output::print(|out| if arguments.json { result::write(&findings, out) } else { summary::write(&findings, out) })?;
+    if arguments.parameters {
+        let (optimality, constraint) = (subject.settings.optimality_tolerance, subject.settings.constraint_tolerance);
+        output::print(|out| measured_by::write(&Tolerances { optimality, constraint }, out))?;
+    }
     Ok(u8::from(outcome.status != Status::Certified))
 }

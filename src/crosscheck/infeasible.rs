@@ -24,10 +24,29 @@ const STARTS: usize = 16;
 pub(super) enum Elasticity {
     /// A feasible point, in the user's variables.
     Feasible(Vec<f64>),
-    /// The least violation, stationary; `proved` where no point at all meets the limits.
-    Infeasible { x: Vec<f64>, conflict: Conflict, proved: bool },
+    /// The least violation, stationary.
+    Infeasible { x: Vec<f64>, conflict: Conflict, proof: Proof },
     /// A point of little violation, not proved least, or one where some limit has no value.
     Unproved(Vec<f64>),
+}
+
+/// What a least violation proves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Proof {
+    /// No point nearby meets the limits.
+    Nearby,
+    /// None at all does: the class makes the minimum the least, as far as its certificate's tolerances tell. A point that meets the
+    /// limits tells more.
+    Least,
+    /// The rows contradict one another, whatever a point far away seems to tell.
+    Contradiction,
+}
+
+impl Proof {
+    /// Whether it speaks of all points.
+    pub(super) fn is_global(self) -> bool {
+        self != Proof::Nearby
+    }
 }
 
 /// Minimises the violation: of the linear rows alone, whose contradiction would be a proof, then of all rows, from the point given
@@ -54,7 +73,7 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
         let relaxed = work.relax(&linear, &start).map(|relaxed| work.in_own_scales(&linear, relaxed));
         let relaxed = relaxed.filter(|relaxed| known || work.is_contradiction(relaxed));
         if let Some(relaxed) = relaxed {
-            return Some(work.infeasible(&relaxed, true));
+            return Some(work.infeasible(&relaxed, Proof::Contradiction));
         }
     }
     let best = match work.least_violation(&all, start)? {
@@ -62,11 +81,14 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
         Least::Feasible(z) => return Some(Elasticity::Feasible(work.outward(&z))),
         Least::Violation(best) => work.in_own_scales(&all, *best),
     };
-    let proved = known || work.is_contradiction(&best) || (work.is_global() && best.certificate.certified);
-    if proved || (best.certificate.certified && work.is_violated(&best)) {
-        return Some(work.infeasible(&best, proved));
-    }
-    Some(Elasticity::Unproved(work.outward(&best.x)))
+    let is_least = best.certificate.certified;
+    let proof = match known || work.is_contradiction(&best) {
+        true => Proof::Contradiction,
+        false if is_least && work.is_global() => Proof::Least,
+        false if is_least && work.is_violated(&best) => Proof::Nearby,
+        false => return Some(Elasticity::Unproved(work.outward(&best.x))),
+    };
+    Some(work.infeasible(&best, proof))
 }
 
 /// The model backends work on, and what may be spent on it.

@@ -29,7 +29,7 @@ mod work;
 use crate::backends::{Backend, Termination};
 use crate::certificate::impossible_row;
 use crate::recession::{Fall, Ray};
-use infeasible::Elasticity;
+use infeasible::{Elasticity, Proof};
 use ledger::Ledger;
 use session::{Session, Solver};
 pub use start::MovedStart;
@@ -195,7 +195,9 @@ fn from_infeasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Out
                 Err(answers) => from_feasible(ledger, answers),
             }
         }
-        Some(Elasticity::Infeasible { x, conflict, proved }) => verdict::infeasible(session, answers, x, (conflict, proved)),
+        Some(Elasticity::Infeasible { x, conflict, proof }) => {
+            verdict::infeasible(session, answers, x, (conflict, proof.is_global()))
+        }
         Some(Elasticity::Unproved(x)) => verdict::no_feasible_point(session, answers, x),
         None => verdict::undecided(session, answers),
     }
@@ -216,10 +218,10 @@ fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>,
 /// A violation above this, relative, is more than solvers leave where rows can be met.
 const LAST_DIGITS: f64 = 1e-10;
 
-/// The elastic phase from the start, as far as it ends in a proof.
+/// The elastic phase from the start, as far as it ends in a proof that stands against points that seem to meet the rows.
 fn proved_infeasible(ledger: &mut Ledger<'_, '_>) -> Option<(Vec<f64>, Conflict)> {
     match infeasible::examine(ledger, ledger.session.task.start)? {
-        Elasticity::Infeasible { x, conflict, proved: true } => Some((x, conflict)),
+        Elasticity::Infeasible { x, conflict, proof: Proof::Contradiction } => Some((x, conflict)),
         _ => None,
     }
 }

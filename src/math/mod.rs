@@ -6,6 +6,7 @@ pub mod banded;
 pub mod determinant;
 pub mod kronecker;
 pub mod norms;
+pub mod parameters;
 pub mod polynomial;
 pub mod quadrature;
 pub mod rotation;

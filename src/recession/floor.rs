@@ -1,21 +1,9 @@
 //! Newton steps to the floor of a valley: the point that is stationary in all variables but one, on the active rows.
 
+use super::parameters::floor::{CORRECTIONS, DAMPED, DUAL, LEAST, PROXIMAL, SETTLED};
 use nalgebra::{DMatrix, DVector};
 
 use super::valley::Site;
-
-/// Newton steps at each place.
-const CORRECTIONS: usize = 12;
-/// A step below this, relative to the variables, ends the corrections.
-const SETTLED: f64 = 1e-10;
-/// Regularisation of the Hessian's diagonal, relative to the magnitudes of its row in units of the variables' sizes, and of rows
-/// that are dependent.
-const PROXIMAL: f64 = 1e-10;
-const DUAL: f64 = 1e-14;
-/// The same where the steps are to stay at a stationary point: the accepted slope of 1e−6 moves it by 1e−3 at the most.
-const DAMPED: f64 = 1e-3;
-/// Curvature below this is what an underflow has left of it.
-const LEAST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// A place on the floor with the row multipliers there.
 #[derive(Clone)]

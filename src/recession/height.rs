@@ -1,16 +1,7 @@
 //! Values with what rounding may make of them, and what a row of them says of the way they lie along.
 
+use super::parameters::height::{DIGITS, EVEN, LAST};
 use crate::math::split_mix::SplitMix;
-
-/// Roundings a value may hold, in units of its own size.
-pub(super) const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-/// Last digits by which a place is moved to see what rounding makes of a value.
-const DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
-/// A fall is no smaller than the one before where it is at least this share of it (−ln t falls alike from decade to decade, tᵖ
-/// by 10ᵖ times as much; 1/ln t, which settles, by less than this up to the tenth).
-const EVEN: f64 = 0.9;
-/// Falls at the end of a way that must be even or growing.
-const LAST: usize = 4;
 
 /// How the objective behaves along a feasible way that goes on for ever.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +50,7 @@ pub(super) fn is_endless(heights: &[Height]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recession::parameters::height::ROUNDINGS;
 
     fn heights(f: impl Fn(f64) -> f64) -> Vec<Height> {
         let places = std::iter::once(0.0).chain((0..30).map(|k| 10f64.powi(k)));

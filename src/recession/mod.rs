@@ -9,6 +9,7 @@
 
 mod floor;
 mod height;
+pub mod parameters;
 mod valley;
 mod ways;
 

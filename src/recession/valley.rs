@@ -1,28 +1,10 @@
 //! Following a valley outwards.
 
 use super::floor::{Floor, back_to_rows, settle};
-use super::height::{Fall, Height, ROUNDINGS, is_endless, last_digits};
+use super::height::{Fall, Height, is_endless, last_digits};
+use super::parameters::height::ROUNDINGS;
+use super::parameters::valley::{BACK, BESIDE, BISECTIONS, DECADE, DECADES, DOUBLINGS, ENOUGH, FIRST, HALVINGS};
 use crate::model::{Meta, Model};
-
-/// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, and 2^100 sizes are beyond anything a model
-/// means.
-const DOUBLINGS: std::ops::Range<i32> = -10..100;
-/// Doublings that must go well before the model may end in an overflow, or be lost in rounding.
-const ENOUGH: i32 = 24;
-/// The first step, in sizes of the variable.
-const FIRST: f64 = 0.25;
-/// Halvings and doublings of the first step in which an asymptote must have risen on the other side.
-const BACK: std::ops::Range<i32> = -6..40;
-/// Decades towards zero, down from the largest numbers there are.
-const DECADES: i32 = 310;
-/// Halvings between a place with a value and one without.
-const BISECTIONS: usize = 60;
-/// A place within this of the point, in sizes, is the same but for rounding and what is accepted of rows.
-const BESIDE: f64 = 1e-3;
-/// Halvings of the way to a floor at which it must not rise: at a strict minimum it does however near.
-const HALVINGS: std::ops::RangeInclusive<i32> = 1..=10;
-/// Doublings between heights that are compared for endlessness: nearly a decade.
-const DECADE: usize = 3;
 
 /// A stationary point and what is known about it.
 pub struct Site<'a> {

@@ -1,26 +1,9 @@
 //! Ways to infinity, straight and bent, and to the domain's edge: followed with the model itself, place by place.
 
-use super::height::{Fall, Height, ROUNDINGS, is_endless, last_digits};
+use super::height::{Fall, Height, is_endless, last_digits};
+use super::parameters::height::ROUNDINGS;
+use super::parameters::ways::{BACK, BEYOND, BISECTIONS, CHANGED, DECADES, EDGE_DECADES, ENOUGH, FAR, NOISE, TRIED};
 use crate::model::{Meta, Model};
-
-/// Decades a way is followed: a minimum that lies within so many times the variables' sizes is found on the way.
-const DECADES: i32 = 30;
-/// Decades that must go well before the model may end in an overflow, or be lost in rounding.
-const ENOUGH: usize = 7;
-/// Places on the way back to where the variables come from.
-const BACK: i32 = 12;
-/// Decades of a way towards an edge.
-const EDGE_DECADES: i32 = 14;
-/// How far beyond the point an edge is looked for, and halvings between a place with a value and one without.
-const BEYOND: f64 = 1e-3;
-const BISECTIONS: usize = 60;
-/// Variables tried one by one at the most.
-const TRIED: usize = 200;
-/// Components of a direction below this, relative, are noise.
-const NOISE: f64 = 1e-6;
-/// A variable that has changed by less than this factor has no power; one must have changed by so much.
-const CHANGED: f64 = 10.0;
-const FAR: f64 = 1e3;
 
 /// A feasible way along which the objective never stops falling.
 #[derive(Debug, Clone)]

@@ -10,6 +10,7 @@ pub mod comparison;
 pub mod cross_section;
 pub mod earlier;
 pub mod governing;
+pub mod measured_by;
 mod named_numbers;
 pub mod number;
 pub mod page;

@@ -156,7 +156,8 @@ fn another_minimum(in_file: Option<&InFile>, done: &Done, off: &str) -> Option<F
 }
 
 fn lost_class_or_scope(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
-    if done.keeps_class && run.class != truth.class {
+    // A class that is recognised in the other form alone is a gain.
+    if done.keeps_class && run.class != truth.class && truth.class.is_global() {
         return Some((Grade::Different, format!("class {} instead of {}", run.class, truth.class)));
     }
     let lost = truth.scope == Extent::Global && run.scope == Extent::Local && run.class.is_global();

@@ -8,34 +8,15 @@
 use super::trial_point::Trial;
 use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
+use crate::certificate::parameters::higher_order::{
+    BESIDE, BEYOND_A_LIMIT, CORRECTIONS, DIRECTIONS, FLAT, NEAR, NOISE, STEPS, STRETCH, WORK,
+};
 use crate::certificate::point::Point;
 use crate::certificate::residuals::worst_complementarity;
 use crate::certificate::second_order::{Active, Choice, Hessian, Kkt};
 use crate::linear_algebra::FactorizationError;
 use crate::math::within;
 use crate::model::Model;
-
-/// Directions bending less than this, in units of σ, are followed: an inflection may hide as near as the slope test allows.
-const FLAT: f64 = 1e-2;
-/// Lengths, relative to the variables' sizes; beyond one size where all is level to the last digits up to there.
-const STEPS: [f64; 15] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6];
-const CORRECTIONS: usize = 8;
-/// Directions followed at the most, and the sum of orders of the systems solved for them.
-const DIRECTIONS: usize = 24;
-const WORK: usize = 20_000;
-/// An inflection with the third derivative r that hides within the accepted slope, ½r·δ² ≤ optimality at the distance δ, shows the
-/// curvature κ = r·δ and falls from the distance 3δ on: there κ·step ≤ 6·optimality. As steps grow 3⅓-fold, a fall farther
-/// off than κ·step = NEAR·optimality is another valley's.
-const NEAR: f64 = 20.0;
-/// Along a direction in which the objective rises by more than the accepted slope a limit that is nearly weakly active pushes
-/// back: a fall farther off than so much of the variables' sizes is another valley's (docs/certificate.md, (e)).
-const BEYOND_A_LIMIT: f64 = 1e-3;
-/// Limits nearer than this are left or kept by a step, and corrections do not run against them.
-const BESIDE: f64 = 1e-3;
-/// Rounding of the objective and of rows on their limits, in units of σ.
-const NOISE: f64 = 1e-10;
-/// `escape` is stretched by this: second tries start at a tenth of it.
-const STRETCH: f64 = 10.0;
 
 /// A direction along which a stationary point is no minimum although no curvature shows it; in the user's variables, ten times
 /// the way to a feasible point that is lower.

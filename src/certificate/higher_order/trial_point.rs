@@ -1,15 +1,11 @@
 //! Values at other points than the judged one, measured with that one's scales.
 
 use crate::certificate::multipliers::Multipliers;
+use crate::certificate::parameters::feasibility::ROUNDINGS;
+use crate::certificate::parameters::higher_order::CORRECTED;
 use crate::certificate::point::Point;
 use crate::certificate::scales::{self, RowTerms};
 use crate::model::Model;
-
-/// Roundings a sum of such magnitudes may hide.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-
-/// What corrections towards the rows leave, in units of their slopes.
-const CORRECTED: f64 = 1e-10;
 
 /// Objective and rows at another point.
 pub(in crate::certificate) struct Trial<'x> {

@@ -2,15 +2,9 @@
 //! known only so.
 
 use super::{Point, slopes};
+use crate::certificate::parameters::sizes::{RESIZABLE, RESIZED, SIGNIFICANT};
 use crate::certificate::scales;
 use crate::model::{EvaluationError, Model};
-
-/// Entries of a row below this share of its largest determine no multiplier.
-const SIGNIFICANT: f64 = 1e-2;
-/// A size is changed by this factor at the most: more would be a guess about rounding.
-const RESIZED: f64 = 1e8;
-/// Variables looked at for that, each for one gradient.
-const RESIZABLE: usize = 64;
 
 impl Point<'_> {
     /// Where the objective is nearly stationary by itself, its slope at x measures nothing; what its curvature makes of the sizes

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::cone::Build;
 use super::small_kkt;
-use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::system::{Active, Choice, Hessian};
 use super::weak_limits::{self, OnCone};
 use super::whole::{self, Curvature};
+use crate::certificate::parameters::second_order::ROUNDING;
 use crate::certificate::point::Point;
 use crate::linear_algebra::saddle_point::SaddlePoint;
 use crate::linear_algebra::{FactorizationError, Partition};

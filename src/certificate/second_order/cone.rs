@@ -9,12 +9,10 @@
 
 use super::system::{Active, Choice, Hessian, places, weight};
 use crate::certificate::Side;
+use crate::certificate::parameters::second_order::DELTA;
 use crate::certificate::point::Point;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
-
-/// δ: |Q| being 1, δ/4 must stay below ROUNDING (1e−7), and ε/δ, which rounding makes of M, too.
-const DELTA: f64 = 1e-7;
 
 /// How the matrix is stored and factorised: [`Symmetric::curved`] or [`Symmetric::one_of_many`].
 pub(super) type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;

@@ -1,16 +1,12 @@
 //! The scaled KKT matrix over free variables and active rows, and what its inertia says.
 
 use super::system::{Hessian, places, weight};
+use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, POWER_STEPS};
 use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
 use crate::linear_algebra::{FactorizationError, Inertia};
 use crate::math::split_mix::SplitMix;
-
-const POWER_STEPS: usize = 60;
-/// For flat directions: the shift that keeps the matrix regular, and the steps of inverse iteration.
-const FLAT_SHIFT: f64 = 1e-6;
-const FLAT_STEPS: usize = 4;
 
 /// [S + shift, Aᵀ; A, −δI]
 pub(in crate::certificate) struct Kkt<'a> {

@@ -6,16 +6,13 @@
 //! itself instead of a penalty of 1/δ across it.
 
 use super::system::{Hessian, places, weight};
+use crate::certificate::parameters::second_order::{FEWEST, WIDEST};
 use crate::certificate::point::Point;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::null_space::Basis;
 use crate::linear_algebra::saddle_point::DUAL;
 
-/// Rows of more free variables than this are not narrow.
-const WIDEST: usize = 8;
-/// Fewer variables and rows are no trouble as a whole.
-const FEWEST: usize = 2000;
 /// Whether S shifted by `shift` times its magnitudes is certainly positive on the null space of the active rows. `None` where this test
 /// does not pay, or cannot tell.
 pub(super) fn is_positive(

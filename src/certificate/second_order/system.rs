@@ -2,13 +2,9 @@
 
 use crate::certificate::Side;
 use crate::certificate::multipliers::Multipliers;
+use crate::certificate::parameters::second_order::{FLOOR, NEARLY_FLAT, NEARLY_WEAK, WEAK};
 use crate::certificate::point::Point;
 use crate::model::{EvaluationError, Model};
-
-/// Shift of the test, relative to the magnitudes S is summed from: curvature less than this is rounding.
-pub(in crate::certificate) const ROUNDING: f64 = 1e-7;
-/// The least scale of a row of S, where nothing bends, in units of σ.
-const FLOOR: f64 = 1e-5;
 
 /// The active set at the point.
 pub(in crate::certificate) struct Active<'a> {
@@ -16,13 +12,6 @@ pub(in crate::certificate) struct Active<'a> {
     pub(in crate::certificate) bounds: &'a [Side],
     pub(in crate::certificate) multipliers: &'a Multipliers,
 }
-
-/// A limit whose scaled multiplier |y_i|·slope_i/σ is at most this is weakly active: as much is accepted of ∂L/∂x_j as a residual.
-const WEAK: f64 = 1e-6;
-/// At most this, and at most NEARLY_FLAT times the curvature there: nearly weakly active. Where the Lagrangian bends by a hundredth
-/// of the curvature about a limit, a slope of 1e−6 makes up to 1e−4 of a multiplier, in a chain of two 1e−3.
-const NEARLY_WEAK: f64 = 1e-3;
-const NEARLY_FLAT: f64 = 1e-2;
 
 /// Which variables and rows are looked at; all lists ascend.
 #[derive(Default, Clone, PartialEq)]

@@ -3,9 +3,10 @@
 use super::by_component;
 use super::kkt::Kkt;
 use super::null_space;
-use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::system::{Active, Choice, Hessian};
 use crate::certificate::Side;
 use crate::certificate::multipliers::Multipliers;
+use crate::certificate::parameters::second_order::ROUNDING;
 use crate::certificate::point::{Origin, Point};
 use crate::linear_algebra::Partition;
 use crate::math::split_mix::SplitMix;

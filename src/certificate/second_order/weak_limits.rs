@@ -1,26 +1,12 @@
 //! The sufficient condition where limits are weakly active: the Lagrangian has positive curvature along every direction of the critical cone.
 
 use super::cone::{Build, Cone};
-use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::system::{Active, Choice, Hessian};
+use crate::certificate::parameters::higher_order::FLAT;
+use crate::certificate::parameters::second_order::{FACES, LOW, LOW_FACES, MOST, NEAREST, ROUNDING, WORK};
 use crate::certificate::point::Point;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::copositive::{self, Verdict};
-
-/// Faces of the cone looked at: all of thirteen weakly active limits that are all tied to one another.
-const FACES: usize = 8192;
-/// Solutions, one per weakly active limit, times the order of the matrix.
-const WORK: usize = 20_000_000;
-/// Weakly active limits at the most: M is dense.
-const MOST: usize = 512;
-/// A point that is a minimum only within this share of the variables' sizes, because nearly weakly active limits push, is none:
-/// 2·∇f·v/|vᵀ∇²L v| ≤ NEAREST. Where the Lagrangian bends by FLAT the accepted slope of 1e−6 leaves the point 1e−4 away, and a
-/// multiplier 1e−4·|S| from its value.
-const NEAREST: f64 = 1e-3;
-/// Faces whose curvature is less than this share of that of their edges are looked at beyond second order, so many of them.
-const LOW: f64 = 1e-3;
-const LOW_FACES: usize = 12;
-/// Directions bending less than this, in units of σ, are flat.
-const FLAT: f64 = 1e-2;
 
 /// What the critical cone says.
 #[derive(Debug, PartialEq)]

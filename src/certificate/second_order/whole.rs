@@ -3,8 +3,9 @@
 use super::cone::Build;
 use super::kkt::Kkt;
 use super::null_space;
-use super::system::{Active, Choice, Hessian, ROUNDING};
+use super::system::{Active, Choice, Hessian};
 use super::weak_limits::{self, OnCone};
+use crate::certificate::parameters::second_order::ROUNDING;
 use crate::certificate::point::Point;
 use crate::linear_algebra::FactorizationError;
 

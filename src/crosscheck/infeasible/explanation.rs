@@ -3,17 +3,17 @@
 use super::super::Conflict;
 use super::filter::{self, Core, Member};
 use super::relaxed::{NOISE, Relaxed};
-use super::{Elasticity, Work, moves};
+use super::{Elasticity, Proof, Work, moves};
 
 impl<'a> Work<'a> {
     /// The violated rows, a small set that conflicts, and single moves that are enough; or the feasible point the search for
     /// these came upon.
-    pub(super) fn infeasible(&self, best: &Relaxed, proved: bool) -> Elasticity {
+    pub(super) fn infeasible(&self, best: &Relaxed, proof: Proof) -> Elasticity {
         let x = self.outward(&best.x);
         self.refill();
         let Core { members, complete } = filter::filter(self, best);
         self.refill();
-        let (alternatives, feasible) = moves::enough(self, best, &members, proved);
+        let (alternatives, feasible) = moves::enough(self, best, &members, proof.is_global());
         if let Some(x) = feasible {
             return Elasticity::Feasible(x);
         }
@@ -23,7 +23,7 @@ impl<'a> Work<'a> {
         let bounds = members.iter().filter_map(|member| member.bound()).collect();
         let minimal = complete && self.is_global();
         let conflict = Conflict { violated_rows: self.violations(&x), rows, bounds, alternatives, minimal };
-        Elasticity::Infeasible { x, conflict, proved }
+        Elasticity::Infeasible { x, conflict, proof }
     }
 
     /// Violation in all below which a set of rows counts as compatible.
