@@ -252,3 +252,24 @@ fn a_moved_start_names_the_term_that_has_no_value() {
     let remark = outcome.moved_start.expect("a moved start").remark;
     assert!(remark.contains("limit") && remark.contains("square root of -1.5"), "{remark}");
 }
+
+#[test]
+fn a_positive_variable_has_no_bound_that_governs() {
+    let file = |objective: &str| {
+        format!("minimize = \"{objective}\"\n[variables]\nx = {{ positive = true }}\ny = {{ positive = true, upper = 4 }}\n")
+    };
+    // 2·x + 1/(x·y) at y = 4: geometric, x = 1/√8.
+    let subject = Subject::of_text("positive.toml", &file("2*x + 1/(x*y)")).unwrap();
+    assert_eq!(subject.class().to_string(), "geometric program");
+    assert!((optimum(&file("2*x + 1/(x*y)")) - 2.0_f64.sqrt()).abs() < 1e-9);
+    // x may come as near to 0 as one likes, but is not 0.
+    let subject = Subject::of_text("positive.toml", &file("x + 1/y")).unwrap();
+    let outcome = outcome(&subject).unwrap();
+    assert_eq!(outcome.status.as_str(), "not-attained", "{}", outcome.message);
+    assert!(
+        outcome.message.contains("x tends to 0")
+            && !outcome.answers.iter().any(|answer| answer.certificate.as_ref().is_some_and(|certificate| certificate.certified)),
+        "{}",
+        outcome.message
+    );
+}

@@ -9,13 +9,15 @@ use super::fields::Scalar;
 use super::source::{Place, Written};
 use crate::expression::ast::Collection;
 use crate::problem::{Sense, Settings, VolumeLaw};
-use crate::units::Dimension;
+use crate::units::{Dimension, Unit};
 
 /// Everything the problem file says; tables are read later.
 #[derive(Default)]
 pub(super) struct Declaration {
     pub title: Option<String>,
     pub units: Vec<(String, Written)>,
+    /// Units that reports are to show, with their names.
+    pub show: Vec<(Unit, String)>,
     /// Dimensions of data that are given with units, by the places of their keys.
     pub measured: BTreeMap<Place, Dimension>,
     /// The sense and the expression; no expression where it is of a wrong type.
@@ -68,6 +70,8 @@ pub(super) struct VariableEntry {
     pub size: Option<Scalar>,
     pub range: Range<Numbers>,
     pub list: Option<ListEntry>,
+    /// Above 0, which is no bound.
+    pub positive: bool,
 }
 
 /// `step`, `values` or `integer` beside the bounds of a variable or dimension.

@@ -9,6 +9,7 @@ mod profiles;
 mod sequences;
 mod settings;
 mod shapes;
+mod show;
 mod structure;
 
 use toml::de::DeTable;
@@ -34,6 +35,9 @@ pub(super) fn parse_tables(document: &DeTable, reader: &mut Reader) -> Declarati
     }
     let labels: Vec<_> = declared.units.iter().map(|(key, label)| (key.clone(), label.text.clone())).collect();
     reader.units = System::of(&labels);
+    if let Some(fields) = top.take("show").and_then(|field| field.table(reader)) {
+        declared.show = show::show(fields, reader);
+    }
     for field in named(&mut top, "parameters", reader) {
         // A name whose value is wrong is known all the same: its uses are no mistakes.
         let value = numbers(&field, reader).unwrap_or(Numbers::One(Scalar::Number(f64::NAN, field.place)));
@@ -132,13 +136,14 @@ fn variable(field: &Field, reader: &mut Reader) -> Option<VariableEntry> {
     let size = fields.take("size").and_then(|field| field.scalar(reader));
     let range = range(&mut fields, numbers, reader);
     let list = lists::list(&mut fields, reader);
+    let positive = fields.take("positive").and_then(|field| field.flag(reader)).unwrap_or(false);
     fields.finish(reader);
-    Some(VariableEntry { name: name(field), size, range, list })
+    Some(VariableEntry { name: name(field), size, range, list, positive })
 }
 
 /// Stands in for a variable whose declaration is wrong, so that its uses are not mistakes as well.
 fn open_variable(field: &Field) -> VariableEntry {
-    VariableEntry { name: name(field), size: None, range: Range::default(), list: None }
+    VariableEntry { name: name(field), size: None, range: Range::default(), list: None, positive: false }
 }
 
 /// `lower`, `upper` and `start` of a table.

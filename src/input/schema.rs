@@ -11,6 +11,7 @@ use serde_json::{Map, Value, json};
 
 use super::parse_tables::{DEFAULT_DEGREE, PROFILE_KINDS};
 use crate::sections::{self, Form, Kind};
+use crate::units::SHOWN_KINDS;
 
 /// The schema (JSON Schema, draft 2020-12). Section kinds and their dimensions come from [`sections::KINDS`].
 ///
@@ -29,6 +30,7 @@ pub fn schema() -> Value {
             "minimize": { "type": "string", "description": "The objective, an expression. Default \"volume\" where there are ribs." },
             "maximize": { "type": "string", "description": "Instead of minimize." },
             "units": map_of(json!({ "type": "string" }), "What numbers are in, such as length = \"m\", force = \"kN\": quantities are converted into these."),
+            "show": show(),
             "parameters": map_of(one_or_many(), "Constants: numbers, arrays, or expressions in other parameters."),
             "variables": map_of(variable(), "Free design variables."),
             "profiles": map_of(profile(), "B-splines of few control values along a line, used as profile(NAME, s)."),
@@ -47,7 +49,7 @@ pub fn schema() -> Value {
             "checks": { "type": "array", "items": checks::check() },
             "solver": solver::solver(),
             "tables": object(json!({
-                "sections": text("CSV table of sections: name, kind, dimensions (b, or b.lower, b.upper, b.start), data."),
+                "sections": text("CSV table of sections: name, kind, dimensions (b, or b.lower, b.upper, b.start, b.step, b.values), data."),
                 "ribs": text("CSV table of ribs: name, from, to (or section), length (or start and end), volume, data."),
                 "nodes": text("CSV table of nodes: name, x, y, z, data."),
                 "supports": text("CSV table of supports: node, fix (pinned, fixed, or directions such as x z), kx … krz."),
@@ -95,6 +97,12 @@ fn or_word(words: &[&str], table: Value, description: &str) -> Value {
     either
 }
 
+/// Units that reports show.
+fn show() -> Value {
+    let kinds = SHOWN_KINDS.iter().map(|(kind, dimension)| ((*kind).to_owned(), text(&format!("A unit of {dimension}."))));
+    object(Value::Object(kinds.collect()), &[])
+}
+
 /// An expression, or a sequence.
 fn definition() -> Value {
     let sequence = object(
@@ -118,6 +126,7 @@ fn variable() -> Value {
     object(
         json!({
             "size": scalar("Number of elements x[1], x[2], … of an array."),
+            "positive": { "type": "boolean", "description": "Above 0, which is no bound: a minimum at 0 is not attained." },
             "lower": one_or_many(), "upper": one_or_many(), "start": one_or_many(),
             "step": scalar("Values from the lower bound in steps of this."),
             "values": list_of_values(),

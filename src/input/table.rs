@@ -251,7 +251,15 @@ impl Row<'_> {
 
     /// The field as a number in the file's units, with a decimal comma where commas do not separate fields.
     pub fn number(&self, at: usize) -> Option<f64> {
-        let text = self.field(at);
+        self.number_of(at, self.field(at))
+    }
+
+    /// The field as numbers with blanks between them.
+    pub fn numbers(&self, at: usize) -> Option<Vec<f64>> {
+        self.field(at).split_whitespace().map(|text| self.number_of(at, text)).collect()
+    }
+
+    fn number_of(&self, at: usize, text: &str) -> Option<f64> {
         let number = decimal(text, self.commas.is_some())?;
         if let Some(commas) = self.commas.filter(|_| text.contains(',')) {
             commas.set(true);

@@ -15,6 +15,8 @@ pub struct Variables {
     pub declared: Vec<Box<str>>,
     /// Lower bounds, −∞ where open.
     pub lower: Vec<f64>,
+    /// Those declared `positive`, ascending: their lower bound of 0 closes what is open there, and no minimum lies on it.
+    pub positive: Vec<u32>,
     /// Upper bounds, +∞ where open.
     pub upper: Vec<f64>,
     /// Starting values, already inside the bounds.

@@ -16,6 +16,8 @@ const BLOCK: usize = 1 << 14;
 pub struct Limit {
     /// Row or variable.
     pub name: String,
+    /// Whether it is of a row.
+    pub is_row: bool,
     /// The side it rests on.
     pub side: Side,
     /// The limit's number.
@@ -158,7 +160,7 @@ impl Entry {
     }
 
     fn limit(&self, findings: &Findings<'_>) -> Limit {
-        Limit { name: self.name(findings), side: self.held.side, limit: self.limit, held: self.held }
+        Limit { name: self.name(findings), is_row: self.is_row, side: self.held.side, limit: self.limit, held: self.held }
     }
 }
 

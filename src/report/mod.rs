@@ -17,6 +17,8 @@ pub mod page;
 pub mod performance_profile;
 pub mod pictures;
 pub mod result;
+pub mod schedule;
+pub mod sheets;
 pub mod sizes;
 pub mod space;
 pub mod structure;
@@ -30,6 +32,7 @@ use crate::crosscheck::Outcome;
 use crate::model::{Class, Model};
 use crate::problem::Sense;
 use crate::problem::checks::Check;
+use crate::units::Shown;
 
 /// Where the problem came from and how it wants to be called.
 #[derive(Debug, Clone, Default)]
@@ -46,6 +49,8 @@ pub struct About {
     pub objective: String,
     /// Unit labels.
     pub units: Vec<(String, String)>,
+    /// What numbers are told in.
+    pub shown: Shown,
     /// True where sections offer an Ix, whose convention reports must state.
     pub has_sections: bool,
     /// True where ribs make up a structure, whose axes reports must state.

@@ -10,17 +10,29 @@ pub struct TextTable {
     header: Vec<String>,
     rows: Vec<Vec<String>>,
     left: usize,
+    /// Whether the last column is of words.
+    noted: bool,
 }
 
 impl TextTable {
     /// A table whose first `left` columns are aligned to the left (names), the others to the right (numbers).
     pub fn new(left: usize, header: &[&str]) -> TextTable {
-        TextTable { header: header.iter().map(|&title| shown(title)).collect(), rows: Vec::new(), left }
+        TextTable { header: header.iter().map(|&title| shown(title)).collect(), rows: Vec::new(), left, noted: false }
     }
 
     /// Adds a row; names in it are shown as a line can take them.
     pub fn add(&mut self, row: Vec<String>) {
         self.rows.push(row.iter().map(|cell| shown(cell)).collect());
+    }
+
+    /// Adds a last column of words, one per row, unless all are empty.
+    pub fn note(&mut self, title: &str, words: Vec<String>) {
+        if words.iter().all(String::is_empty) {
+            return;
+        }
+        self.noted = true;
+        self.header.push(shown(title));
+        self.rows.iter_mut().zip(words).for_each(|(row, word)| row.push(shown(&word)));
     }
 
     /// True without rows.
@@ -45,7 +57,8 @@ impl fmt::Display for TextTable {
         for row in std::iter::once(&self.header).chain(&self.rows) {
             let mut line = String::new();
             for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
-                let padded = if column < self.left { format!("  {cell:<width$}") } else { format!("  {cell:>width$}") };
+                let is_word = column < self.left || self.noted && column + 1 == self.header.len();
+                let padded = if is_word { format!("  {cell:<width$}") } else { format!("  {cell:>width$}") };
                 line.push_str(&padded);
             }
             writeln!(formatter, "{}", line.trim_end())?;

@@ -7,6 +7,7 @@ use std::io::{self, Write};
 
 use super::number::{short, significant};
 use super::text::{TextTable, count};
+use crate::units::{Label, Shown};
 pub use tables::{HEADER, LIMITS_HEADER};
 
 /// Lines of a group on the console.
@@ -121,7 +122,7 @@ impl Table {
     ///
     /// # Errors
     /// Whatever the writer says.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write(&self, shown: &Shown, out: &mut dyn Write) -> io::Result<()> {
         let mut lines: Vec<(&Use, usize)> = Vec::new();
         // A constraint that is spread over cases, stations and points is one line.
         let mut known: HashMap<(&str, bool), usize> = HashMap::new();
@@ -146,11 +147,17 @@ impl Table {
             lines.sort_by(|(a, _), (b, _)| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
         }
         let mut table = TextTable::new(1, &["limit", "rows", "value", "", "limit", "per cent"]);
+        let mut units = Vec::new();
         for (used, rows) in lines.iter().take(MOST_LINES) {
+            let row = self.row_name(used);
+            let (factor, unit) = Label::parts(shown.row(&row));
             let side = if used.from_above { "<=" } else { ">=" };
             let share = per_cent(used.share);
-            table.add(vec![self.row_name(used), rows.to_string(), short(used.value), side.into(), short(used.limit), share]);
+            let [value, limit] = [used.value, used.limit].map(|number| short(factor * number));
+            table.add(vec![row, rows.to_string(), value, side.into(), limit, share]);
+            units.push(unit);
         }
+        table.note("unit", units);
         write!(out, "{table}")?;
         if lines.len() > MOST_LINES {
             writeln!(out, "  … {} in limits.csv", count(lines.len() - MOST_LINES, "more constraint"))?;
@@ -234,7 +241,7 @@ mod tests {
     #[test]
     fn the_most_used_row_stands_for_its_constraint() {
         let mut text = Vec::new();
-        table().write(&mut text).unwrap();
+        table().write(&Shown::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains("stress#2[r2]     2    235  <=    235       100"), "{text}");
         assert!(!text.contains("[r1]") && text.contains("75"), "{text}");

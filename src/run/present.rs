@@ -1,12 +1,13 @@
 //! An outcome in the user's own variables and rows: what follows them is auxiliary.
 
-use super::Subject;
+use super::{Subject, open_end};
 use crate::certificate::Certificate;
 use crate::crosscheck::Outcome;
 use crate::model::{Model, Own};
 
 /// The outcome as reports show it: without auxiliaries, the objective and the rows as the user's expressions at the point.
 pub fn present(subject: &Subject, mut outcome: Outcome) -> Outcome {
+    open_end::judge(subject, &mut outcome);
     let (model, shown) = (subject.model(), subject.shown());
     let own = model.own();
     if own.variables == model.meta().variables() {

@@ -15,6 +15,7 @@ use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Constraint, Formula, Problem, Scope, Settings};
 use crate::report::result::Mistake;
 use crate::report::{self, About, Volumes};
+use crate::units::Shown;
 
 /// A problem ready to be solved.
 pub struct Subject {
@@ -48,6 +49,7 @@ impl Subject {
         let input = input::read_watched(file, changes, watch).map_err(refused)?;
         let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
         subject.inputs = Inputs::new(input.files);
+        subject.about.shown = input.dimensions.shown.clone();
         subject.dimensions = input.dimensions;
         subject.about.changes = changes.to_vec();
         let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
@@ -63,6 +65,8 @@ impl Subject {
         let input = input::read_text(name, text).map_err(refused)?;
         let mut subject = Subject::assemble(input.problem, Path::new(name), input.sha256)?;
         subject.inputs = Inputs::new(input.files);
+        subject.about.shown = input.dimensions.shown.clone();
+        subject.dimensions = input.dimensions;
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
         Ok(subject)
     }
@@ -86,6 +90,7 @@ impl Subject {
             sense: problem.sense,
             objective: problem.objective_text.clone(),
             units: problem.units.clone(),
+            shown: Shown::default(),
             has_sections: !problem.sections.names.is_empty(),
             has_structure: problem.structure.is_some(),
             checks: problem.checks.clone(),

@@ -6,10 +6,12 @@
 mod dimension;
 pub mod inference;
 mod ratio;
+mod shown;
 mod system;
 mod unit;
 
 pub use dimension::Dimension;
 pub use ratio::Ratio;
+pub use shown::{KINDS as SHOWN_KINDS, Label, Shown};
 pub use system::System;
 pub use unit::{Unit, UnitError, scan};

@@ -5,8 +5,9 @@ mod columns;
 use super::Assembly;
 use super::data::{infinite, put};
 use super::items::{Given, GivenValue};
+use super::listing::Listing;
 use crate::expression::ast::Collection;
-use crate::input::declaration::{Declaration, Name, Range};
+use crate::input::declaration::{self, Declaration, ListEntry, Name, Range};
 use crate::input::fields::Scalar;
 use crate::input::source::Written;
 use crate::input::table::{Row, Tables};
@@ -60,7 +61,7 @@ impl Assembly<'_> {
     /// A dimension of a row; `None` where its cells are empty.
     fn cell<'n>(&mut self, row: &Row, columns: &'n Dimension) -> Option<Given<'n>> {
         let filled = |at: Option<usize>| at.filter(|&at| !row.field(at).is_empty());
-        let parts = [filled(columns.lower), filled(columns.upper), filled(columns.start)];
+        let parts = [columns.lower, columns.upper, columns.start, columns.step, columns.values].map(filled);
         let (value, any) = (filled(columns.value), parts.iter().flatten().next().copied());
         let place = row.place(value.or(any)?);
         if let (Some(_), Some(at)) = (value, any) {
@@ -75,10 +76,34 @@ impl Assembly<'_> {
             None => {
                 let [lower, upper] = [parts[0], parts[1]].map(|at| at.and_then(|at| self.bound_cell(row, at)));
                 let start = parts[2].and_then(|at| self.cell_constant(row, at));
-                GivenValue::Own(Range { lower, upper, start }, None)
+                GivenValue::Own(Range { lower, upper, start }, self.list_cells(row, parts[3], parts[4]))
             }
         };
         Some(Given { name: &columns.name, place, value })
+    }
+
+    /// The list a dimension takes its value from, by a step or by its values.
+    fn list_cells(&mut self, row: &Row, step: Option<usize>, values: Option<usize>) -> Option<Listing> {
+        if let (Some(_), Some(second)) = (step, values) {
+            self.findings.mistake(MistakeCode::BothGiven, row.place(second), "two lists of one size", "keep `step` or `values`");
+            return None;
+        }
+        let at = step.or(values)?;
+        let place = row.place(at);
+        let values = match row.numbers(at) {
+            Some(values) if step.is_none() => {
+                declaration::Listing::Values(values.into_iter().map(|value| Scalar::Number(value, place)).collect())
+            }
+            None if step.is_none() => {
+                let help = "numbers with blanks between them, as 0.1 0.2 0.3";
+                self.findings.mistake(MistakeCode::NoNumber, place, "these are no numbers", help);
+                return None;
+            }
+            _ => declaration::Listing::Step(
+                row.number(at).map_or_else(|| Scalar::Expression(row.written(at)), |step| Scalar::Number(step, place)),
+            ),
+        };
+        self.listing(&ListEntry { place, values })
     }
 
     /// A number or a constant expression.

@@ -86,6 +86,12 @@ impl Assembly<'_> {
                 target[first..last].copy_from_slice(&values);
             }
         }
+        for j in (first..last).filter(|_| entry.positive) {
+            if variables.lower[j] <= 0.0 {
+                variables.lower[j] = 0.0;
+                variables.positive.push(j as u32);
+            }
+        }
     }
 
     /// One number per element; a single one is repeated.

@@ -85,5 +85,5 @@ fn controls(field: &Field, fields: &mut Fields, kind: Option<Option<u32>>, what:
     let size = size.map(|size| Scalar::Number(size.into(), control.place)).or(given);
     let range: Range<Numbers> = range(&mut table, numbers, reader);
     table.finish(reader);
-    VariableEntry { name: name(field), size, range, list: None }
+    VariableEntry { name: name(field), size, range, list: None, positive: false }
 }

@@ -21,6 +21,7 @@ fn every_kind_has_a_rule_with_its_dimensions() {
 /// Tables of a file with a key that none knows, and where the schema lists the keys of each.
 const TABLES: &[(&str, &str)] = &[
     ("QQQQQQQ = 1", "/properties"),
+    ("[show]\nQQQQQQQ = 1", "/properties/show/properties"),
     ("[variables]\nx = { QQQQQQQ = 1 }", "/properties/variables/additionalProperties/properties"),
     ("[definitions]\nx = { QQQQQQQ = 1 }", "/properties/definitions/additionalProperties/properties"),
     ("[catalogues]\nc = { QQQQQQQ = 1 }", "/properties/catalogues/additionalProperties/properties"),

@@ -33,7 +33,11 @@ impl Table<'_> {
     pub(super) fn beside_unit(&self) -> Option<u16> {
         let wrong = |at: &usize| {
             let text = self.record.get(*at).unwrap_or("").trim();
-            let number = text.is_empty() || decimal(text, self.separator != b',').is_some();
+            let is_number = |text: &str| decimal(text, self.separator != b',').is_some();
+            let number = match self.headers[*at].ends_with(".values") {
+                true => text.split_whitespace().all(is_number),
+                false => text.is_empty() || is_number(text),
+            };
             self.units[*at].is_some() && !number
         };
         (0..self.units.len()).find(wrong).map(|at| at as u16)

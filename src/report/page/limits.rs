@@ -13,7 +13,7 @@ const MOST_LIMITS: usize = 50;
 pub(super) fn governing(left: &Left) -> Markup {
     let values = left.result.get("variables");
     let limits = ["constraints", "bounds"].into_iter().flat_map(|key| left.list(key));
-    let mut rows: Vec<(f64, Vec<String>)> = limits.filter_map(|entry| row(entry, values)).collect();
+    let mut rows: Vec<(f64, Vec<String>)> = limits.filter_map(|entry| row(entry, values, left)).collect();
     rows.sort_by(|a, b| b.0.total_cmp(&a.0));
     let all = rows.len();
     let rows: Vec<Vec<String>> = rows.into_iter().take(MOST_LIMITS).map(|(_, row)| row).collect();
@@ -21,14 +21,14 @@ pub(super) fn governing(left: &Left) -> Markup {
         @if !rows.is_empty() {
             h2 { "What governs" }
             p { "Active limits, and what the objective gains or loses, to first order, when the limit is raised by 1 or by 1 %." }
-            (table(&["limit", "side", "at", "per unit", "per +1 %"], &rows, "constraints.csv"))
+            (table(&["limit", "side", "at", "unit", "per unit", "per +1 %"], &rows, "constraints.csv"))
             @if all > MOST_LIMITS { p { (all - MOST_LIMITS) " more in " code { "constraints.csv" } " and " code { "variables.csv" } "." } }
         }
     }
 }
 
 /// An active limit with a price; `None` for any other. A bound is where its variable is.
-fn row(entry: &Value, values: Option<&Value>) -> Option<(f64, Vec<String>)> {
+fn row(entry: &Value, values: Option<&Value>, left: &Left) -> Option<(f64, Vec<String>)> {
     let text = |key: &str| entry.get(key).and_then(Value::as_str);
     let side = text("active").filter(|side| *side != "none")?;
     let sensitivity = entry.get("sensitivity")?.as_f64().filter(|value| *value != 0.0)?;
@@ -36,7 +36,11 @@ fn row(entry: &Value, values: Option<&Value>) -> Option<(f64, Vec<String>)> {
     let at = limit.or_else(|| values?.get(text("name")?)).and_then(Value::as_f64);
     let per_cent = at.map(|at| sensitivity * at.abs() / 100.0);
     let number = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
-    let row = vec![text("name")?.to_owned(), side.to_owned(), number(at), number(Some(sensitivity)), number(per_cent)];
+    let (factor, unit) = left.told(text("unit"));
+    let (of_objective, _) = left.told_objective();
+    let (at, per_unit) = (at.map(|at| factor * at), Some(of_objective * sensitivity / factor));
+    let per_cent = per_cent.map(|change| of_objective * change);
+    let row = vec![text("name")?.to_owned(), side.to_owned(), number(at), unit, number(per_unit), number(per_cent)];
     Some((per_cent.unwrap_or(0.0).abs(), row))
 }
 

@@ -40,6 +40,18 @@ impl Left {
         self.result.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
     }
 
+    /// What numbers in one of the file's units are told in: how many of it one is, and its name.
+    fn told(&self, own: Option<&str>) -> (f64, String) {
+        let Some(own) = own else { return (1.0, String::new()) };
+        let shown = self.result.pointer("/problem/show").and_then(|show| show.get(own));
+        let parts = shown.and_then(|shown| Some((shown.get(1)?.as_f64()?, shown.get(0)?.as_str()?.to_owned())));
+        parts.unwrap_or_else(|| (1.0, own.to_owned()))
+    }
+
+    fn told_objective(&self) -> (f64, String) {
+        self.told(self.result.pointer("/problem/objective_unit").and_then(Value::as_str))
+    }
+
     fn list(&self, key: &str) -> &[Value] {
         self.result.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
     }
@@ -123,16 +135,18 @@ fn meaning(status: &str, scope: &str) -> &'static str {
 
 fn verdict(left: &Left) -> Markup {
     let (status, scope) = (left.text("/status"), left.text("/scope"));
+    let (factor, unit) = left.told_objective();
+    let told = |value: Option<&Value>| number(value.and_then(Value::as_f64).map(|value| Value::from(factor * value)).as_ref());
     let objective = left.result.get("objective").filter(|value| value.is_number());
     html! {
         section class={ "verdict " (status) } {
             p class="status" { (status) @if status == "certified" { ", " (scope) } }
             p { (meaning(status, scope)) }
             @if let Some(value) = objective {
-                p class="objective" { (left.text("/problem/objective")) " = " strong { (number(Some(value))) } }
+                p class="objective" { (left.text("/problem/objective")) " = " strong { (told(Some(value))) } " " (unit) }
                 @if left.result.get("lower_bound").is_some_and(Value::is_number) {
                     p { "No design is " @if left.text("/problem/sense") == "maximize" { "above " } @else { "below " }
-                        (number(left.result.get("lower_bound"))) "." }
+                        (told(left.result.get("lower_bound"))) "." }
                 }
             }
             p { (left.text("/message")) }

@@ -113,7 +113,11 @@ pub(super) fn ribs(left: &Left) -> Markup {
 /// All variables with their bounds.
 pub(super) fn variables(left: &Left) -> Markup {
     let rows: Vec<Vec<String>> = match left.table("variables.csv") {
-        Some(table) => table.select(&["name", "value", "lower", "upper", "active"]),
+        Some(table) => {
+            let mut rows = table.select(&["name", "value", "lower", "upper", "active"]);
+            in_units(left, &mut rows);
+            rows
+        }
         None => {
             let values = left.result.get("variables").and_then(Value::as_object);
             values.into_iter().flatten().map(|(name, value)| vec![name.clone(), number(Some(value))]).collect()
@@ -122,7 +126,21 @@ pub(super) fn variables(left: &Left) -> Markup {
     html! {
         @if !rows.is_empty() {
             h2 { "Variables" }
-            (table(&["variable", "value", "lower", "upper", "rests on"], &rows, "variables.csv"))
+            (table(&["variable", "value", "lower", "upper", "rests on", "unit"], &rows, "variables.csv"))
         }
+    }
+}
+
+/// Values and bounds of variables in the units they are told in, which stand behind.
+fn in_units(left: &Left, rows: &mut [Vec<String>]) {
+    for (row, bound) in rows.iter_mut().zip(left.list("bounds")) {
+        let same = bound.get("name").and_then(Value::as_str) == row.first().map(String::as_str);
+        let (factor, unit) = left.told(bound.get("unit").and_then(Value::as_str).filter(|_| same));
+        for cell in row.iter_mut().skip(1).take(3) {
+            if let Ok(value) = cell.parse::<f64>() {
+                *cell = (factor * value).to_string();
+            }
+        }
+        row.push(unit);
     }
 }

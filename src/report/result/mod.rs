@@ -142,7 +142,12 @@ struct ProblemPart<'a> {
     class: String,
     sense: &'static str,
     objective: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    objective_unit: Option<String>,
     units: BTreeMap<&'a str, &'a str>,
+    /// By own unit: the one that reports show instead, and how many of it one is.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    show: BTreeMap<String, (String, f64)>,
     changes: &'a [String],
 }
 
@@ -158,7 +163,9 @@ impl<'a> ProblemPart<'a> {
             class: findings.class.to_string(),
             sense: if findings.sign() < 0.0 { "maximize" } else { "minimize" },
             objective: &about.objective,
+            objective_unit: about.shown.own_of_objective(),
             units: about.units.iter().map(|(key, label)| (key.as_str(), label.as_str())).collect(),
+            show: about.shown.instead().map(|(own, label)| (own, (label.name, label.factor))).collect(),
             changes: &about.changes,
         }
     }

@@ -40,6 +40,9 @@ impl Serialize for ConstraintsPart<'_> {
 #[derive(Serialize)]
 struct Bound {
     name: String,
+    /// Of the variable's own numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
     active: &'static str,
     multiplier: f64,
     sensitivity: f64,
@@ -48,13 +51,17 @@ struct Bound {
 impl Bound {
     fn of(findings: &Findings<'_>, j: usize) -> Bound {
         let Held { side, multiplier, sensitivity } = findings.bound(j);
-        Bound { name: findings.model.variable_name(j), active: side.as_str(), multiplier, sensitivity }
+        let name = findings.model.variable_name(j);
+        let unit = findings.about.shown.own_of_variable(&name);
+        Bound { name, unit, active: side.as_str(), multiplier, sensitivity }
     }
 }
 
 #[derive(Serialize)]
 struct Row {
     name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
     value: f64,
     lower: f64,
     upper: f64,
@@ -86,8 +93,10 @@ impl PlacePart {
 impl Row {
     fn of(findings: &Findings<'_>, i: usize) -> Row {
         let (meta, held) = (findings.model.meta(), findings.row(i));
+        let name = findings.model.row_name(i);
         Row {
-            name: findings.model.row_name(i),
+            unit: findings.about.shown.own_of_row(&name),
+            name,
             value: findings.row_value(i),
             lower: meta.row_lower[i],
             upper: meta.row_upper[i],

@@ -8,6 +8,7 @@ use crate::report::Findings;
 use crate::report::governing::{Governing, Group, Limit, per_cent};
 use crate::report::number::significant;
 use crate::report::text::{TextTable, count};
+use crate::units::Label;
 
 /// The costliest limits one by one, all of them by group.
 ///
@@ -21,12 +22,19 @@ pub(super) fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<
     if governing.with_cost == 0 {
         return writeln!(out, "\nNothing governs: no row or bound holds the optimum.");
     }
-    let objective = findings.objective().unwrap_or(f64::NAN);
+    // In the unit it is told in, as prices are.
+    let (of_objective, _) = Label::parts(findings.about.shown.objective());
+    let objective = of_objective * findings.objective().unwrap_or(f64::NAN);
     writeln!(out, "\nWhat governs, and what each limit costs (first order, per unit and per cent of the limit)")?;
     let mut table = TextTable::new(2, &["limit", "side", "at", "multiplier", "per unit", "per +1 %", "of objective"]);
+    let (shown, mut units) = (&findings.about.shown, Vec::new());
     for limit in &governing.costliest {
-        table.add(limit_row(limit, objective));
+        let label = if limit.is_row { shown.row(&limit.name) } else { shown.variable(&limit.name) };
+        let (factor, unit) = Label::parts(label);
+        table.add(limit_row(limit, [factor, of_objective], objective));
+        units.push(unit);
     }
+    table.note("unit", units);
     write!(out, "{table}")?;
     if governing.costliest.iter().any(|limit| limit.name.contains('#')) {
         writeln!(out, "  name#2: the part of this row that is made from the second argument of its max, min or abs")?;
@@ -35,7 +43,7 @@ pub(super) fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<
         writeln!(out, "\n  all {} governing limits by group", governing.with_cost)?;
         let mut table = TextTable::new(2, &["group", "side", "limits", "per +1 % of all", "of objective"]);
         for group in governing.groups.iter().take(MOST_LINES) {
-            table.add(group_row(group, objective));
+            table.add(group_row(group, of_objective, objective));
         }
         write!(out, "{table}")?;
     }
@@ -54,17 +62,22 @@ pub(super) fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<
     Ok(())
 }
 
-fn limit_row(limit: &Limit, objective: f64) -> Vec<String> {
-    let change = per_cent(limit.held.sensitivity, limit.limit);
+/// With how many of what is told one of the file's own is, of limit and objective.
+fn limit_row(limit: &Limit, [factor, of_objective]: [f64; 2], objective: f64) -> Vec<String> {
+    let change = of_objective * per_cent(limit.held.sensitivity, limit.limit);
+    let price = of_objective / factor;
     let (change, share) = if limit.limit == 0.0 { (f64::NAN, f64::NAN) } else { (change, change / objective) };
     let mut row = vec![limit.name.clone(), limit.side.as_str().into()];
-    row.extend([limit.limit, limit.held.multiplier, limit.held.sensitivity, change].map(|value| significant(value, 5)));
+    row.extend(
+        [factor * limit.limit, price * limit.held.multiplier, price * limit.held.sensitivity, change]
+            .map(|value| significant(value, 5)),
+    );
     row.push(share_text(share));
     row
 }
 
-fn group_row(group: &Group, objective: f64) -> Vec<String> {
-    let change = if group.per_cent == 0.0 { f64::NAN } else { group.per_cent };
+fn group_row(group: &Group, of_objective: f64, objective: f64) -> Vec<String> {
+    let change = if group.per_cent == 0.0 { f64::NAN } else { of_objective * group.per_cent };
     let (change, share) = (significant(change, 5), share_text(change / objective));
     vec![group.name.clone(), group.side.as_str().into(), group.count.to_string(), change, share]
 }

@@ -11,6 +11,7 @@ use super::checks;
 use super::number::{percent, short, significant};
 use super::text::{TextTable, count, plain, shortened};
 use super::{Findings, Volumes};
+use crate::units::Label;
 
 /// At most this many limits, rows or variables are shown one by one.
 const MOST_LINES: usize = 12;
@@ -35,7 +36,7 @@ pub fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     chosen(findings, out)?;
     governing::write(findings, out)?;
     if let Some(table) = findings.utilisation {
-        table.write(out)?;
+        table.write(&findings.about.shown, out)?;
     }
     conflict::write(findings, out)?;
     volumes(findings, out)?;
@@ -65,12 +66,13 @@ fn verdict(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "what to do: {}", shortened(remedy, LONGEST_MESSAGE))?;
     }
     if let Some(objective) = findings.objective() {
-        writeln!(out, "{} = {}{}", brief(&findings.about.objective), significant(objective, 10), objective_unit(findings))?;
+        let (factor, unit) = objective_unit(findings);
+        writeln!(out, "{} = {}{unit}", brief(&findings.about.objective), significant(factor * objective, 10))?;
         if let Some(bound) = findings.lower_bound() {
             let gap = (objective - bound).abs();
             let share = gap / objective.abs().max(bound.abs()).max(f64::MIN_POSITIVE);
             let gap = if gap == 0.0 { "exactly".into() } else { format!("within {} (relative) of", significant(share, 2)) };
-            writeln!(out, "{gap} the best possible, {}", significant(bound, 10))?;
+            writeln!(out, "{gap} the best possible, {}", significant(factor * bound, 10))?;
         }
     }
     Ok(())
@@ -84,11 +86,15 @@ fn brief(expression: &str) -> String {
     }
 }
 
-fn objective_unit(findings: &Findings<'_>) -> String {
+/// What the objective is told in: how many of it one of the file's own is, and its name.
+fn objective_unit(findings: &Findings<'_>) -> (f64, String) {
+    if let Some(label) = findings.about.shown.objective() {
+        return (label.factor, format!(" {}", label.name));
+    }
     let is_volume = matches!(findings.about.objective.as_str(), "volume" | "volume_frustum" | "volume_prismatoid");
     match findings.about.unit("length") {
-        Some(length) if is_volume => format!(" {length}³"),
-        _ => String::new(),
+        Some(length) if is_volume => (1.0, format!(" {length}³")),
+        _ => (1.0, String::new()),
     }
 }
 
@@ -96,9 +102,15 @@ fn point(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<()> {
     let outcome = findings.outcome;
     let meta = findings.model.meta();
     let mut table = TextTable::new(1, &["variable", "value", "lower", "upper"]);
+    let mut units = Vec::new();
     for (j, &value) in outcome.x.iter().enumerate().take(MOST_LINES) {
-        table.add(vec![findings.model.variable_name(j), short(value), short(meta.lower[j]), short(meta.upper[j])]);
+        let name = findings.model.variable_name(j);
+        let (factor, unit) = Label::parts(findings.about.shown.variable(&name));
+        let [value, lower, upper] = [value, meta.lower[j], meta.upper[j]].map(|number| short(factor * number));
+        table.add(vec![name, value, lower, upper]);
+        units.push(unit);
     }
+    table.note("unit", units);
     if !table.is_empty() {
         write!(out, "\n{table}")?;
     }

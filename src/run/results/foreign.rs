@@ -27,6 +27,9 @@ pub(in crate::run) fn is_foreign(path: &Path) -> bool {
         "structure.vtu" => !begins(&["<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\""]),
         "sizes.csv" => !begins(&[crate::report::sizes::HEADER]),
         "volumes.csv" => !begins(&[crate::report::sizes::VOLUMES_HEADER]),
+        // By its policy, which no other page is likely to begin with.
+        "report.html" => !head.contains("content=\"default-src 'none'; style-src 'unsafe-inline'; script-src"),
+        "network.json" => !head.contains("\"ribopt-network/1\""),
         name if name.ends_with(".svg") => !begins(&["<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 "]),
         _ => !begins(&["iteration,evaluations,objective,"]),
     }

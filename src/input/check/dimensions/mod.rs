@@ -15,7 +15,7 @@ use crate::input::declaration::Declaration;
 use crate::input::source::Place;
 use crate::input::table::Table;
 use crate::problem::mistake_code::MistakeCode;
-use crate::units::{Dimension, System};
+use crate::units::{Dimension, Shown, System};
 use walk::Walk;
 
 /// What the numbers of a problem file measure.
@@ -29,6 +29,8 @@ pub struct Dimensions {
     pub doubts: Vec<String>,
     /// What the numbers are in.
     pub units: System,
+    /// What reports tell numbers in.
+    pub shown: Shown,
 }
 
 /// A name and what it measures.
@@ -68,6 +70,7 @@ impl Assembly<'_> {
         let mut walk = Walk::new(self);
         walk.places(declared);
         let measured = walk.measured(declared);
+        let shown = walk.shown(declared);
         let (found, odd) = walk.finish();
         let mut doubts = Vec::new();
         if self.quantities {
@@ -82,7 +85,9 @@ impl Assembly<'_> {
             let sentence = |one: walk::Disagreement| format!("{}: {}", self.spoken(one.place), one.message);
             doubts = found.into_iter().chain(odd).map(sentence).collect();
         }
-        Dimensions { quantities: self.quantities, measured, doubts, units: self.units.clone() }
+        // Of numbers that do not agree nothing is told.
+        let shown = if doubts.is_empty() { shown } else { Shown::default() };
+        Dimensions { quantities: self.quantities, measured, doubts, units: self.units.clone(), shown }
     }
 
     /// The mistake of a unit of mass that does not follow from the others.

@@ -31,9 +31,11 @@ impl Walk<'_, '_> {
         if let Some((_, Some(written))) = &declared.objective
             && let Ok(ast) = parse(&written.text)
         {
-            self.expression(&ast, written, Scope::default());
+            self.objective = Some(self.expression(&ast, written, Scope::default()));
         }
-        declared.constraints.iter().for_each(|entry| self.constraint(entry));
+        for (at, entry) in declared.constraints.iter().enumerate() {
+            self.constraint(at, entry);
+        }
         self.settle_factors();
     }
 
@@ -222,7 +224,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    fn constraint(&mut self, entry: &ConstraintEntry) {
+    fn constraint(&mut self, at: usize, entry: &ConstraintEntry) {
         let scope = Scope { holder: entry.repeated, itself: None };
         if let Some(written) = &entry.filter
             && let Ok(condition) = parse_condition(&written.text)
@@ -234,7 +236,9 @@ impl Walk<'_, '_> {
         if let Some(written) = &entry.require
             && let Ok(requirement) = parse_requirement(&written.text)
         {
-            self.requirement(&requirement, written, scope);
+            let form = self.requirement(&requirement, written, scope);
+            let name = entry.name.as_ref().map_or_else(|| format!("c{}", at + 1), |name| name.text.clone());
+            self.rows.push((name, form));
         }
         self.indices.clear();
     }

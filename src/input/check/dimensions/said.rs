@@ -4,8 +4,9 @@ use super::Measured;
 use super::walk::Walk;
 use crate::expression::ast::Collection;
 use crate::input::declaration::Declaration;
-use crate::problem::Formula;
 use crate::problem::resolve::Value;
+use crate::problem::{Formula, Origin, sections_form};
+use crate::units::{Dimension, Shown};
 
 impl Walk<'_, '_> {
     /// Parameters, variables, definitions and data with their dimensions.
@@ -46,6 +47,29 @@ impl Walk<'_, '_> {
             list.push(Measured { name: format!("material.{name}"), dimension, value: None });
         }
         list
+    }
+
+    /// What variables, rows and the objective measure, and what that is told in.
+    pub fn shown(&mut self, declared: &Declaration) -> Shown {
+        let (rows, objective) = (std::mem::take(&mut self.rows), self.objective.take());
+        let mut shown = Shown { system: self.assembly.units.clone(), wanted: declared.show.clone(), ..Shown::default() };
+        shown.rows = rows.into_iter().filter_map(|(name, form)| Some((name, self.known(&form)?))).collect();
+        shown.objective = match declared.objective {
+            Some(_) => objective.and_then(|form| self.known(&form)),
+            None => Some(Dimension::whole([3, 0, 0, 0])),
+        };
+        for entry in &declared.variables {
+            let form = self.unknown(format!("name: {}", entry.name.text));
+            shown.variables.extend(self.known(&form).map(|dimension| (entry.name.text.clone(), dimension)));
+        }
+        for j in 0..self.assembly.problem.variables.origin.len() {
+            let Origin::Dimension(section, position) = self.assembly.problem.variables.origin[j] else { continue };
+            let Some(form) = sections_form(&self.assembly.problem, section as usize) else { continue };
+            let measures = self.of_section(Some(form.kind), form.dimensions[usize::from(position)]);
+            let name = self.assembly.problem.variable_name(j);
+            shown.variables.extend(self.known(&measures).map(|dimension| (name, dimension)));
+        }
+        shown
     }
 
     fn one(&mut self, name: String, key: String, value: Option<f64>) -> Measured {

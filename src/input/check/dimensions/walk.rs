@@ -31,6 +31,9 @@ pub(super) struct Disagreement {
 pub(super) struct Walk<'a, 's> {
     pub assembly: &'a Assembly<'s>,
     pub inference: Inference,
+    /// What rows measure, by the names of their constraints; and the objective.
+    pub rows: Vec<(String, Form)>,
+    pub objective: Option<Form>,
     /// Names that stand for whole numbers.
     pub indices: Vec<String>,
     unknowns: HashMap<String, Form>,
@@ -45,7 +48,8 @@ impl<'a, 's> Walk<'a, 's> {
     pub fn new(assembly: &'a Assembly<'s>) -> Self {
         let (inference, indices) = (Inference::default(), Vec::new());
         let (factors, odd_factors, disagreements) = (Vec::new(), Vec::new(), Vec::new());
-        Walk { assembly, inference, indices, unknowns: HashMap::new(), factors, odd_factors, disagreements }
+        let (rows, objective, unknowns) = (Vec::new(), None, HashMap::new());
+        Walk { assembly, inference, rows, objective, indices, unknowns, factors, odd_factors, disagreements }
     }
 
     /// What cannot be, and what is doubtful.
@@ -115,8 +119,8 @@ impl<'a, 's> Walk<'a, 's> {
         self.disagree(written.part(span.start, span.end), message, Some(help));
     }
 
-    /// Both sides of a requirement.
-    pub fn requirement(&mut self, requirement: &Requirement, written: &Written, scope: Scope) {
+    /// Both sides of a requirement; brings back what they measure.
+    pub fn requirement(&mut self, requirement: &Requirement, written: &Written, scope: Scope) -> Form {
         let sides = match requirement {
             Requirement::Two { left, right, .. } => vec![left, right],
             Requirement::Range { lower, middle, upper } => vec![middle, lower, upper],
@@ -126,6 +130,8 @@ impl<'a, 's> Walk<'a, 's> {
             let (start, end) = (sides[0].span.start.min(side.span.start), sides[0].span.end.max(side.span.end));
             self.same(written, Span { start, end }, [(sides[0], &forms[0]), (side, form)], "compared");
         }
+        let bare = |at: &usize| !is_bare(sides[*at]);
+        forms[(0..forms.len()).find(bare).unwrap_or(0)].clone()
     }
 
     pub fn condition(&mut self, condition: &Condition, written: &Written, scope: Scope) {

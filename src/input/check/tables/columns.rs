@@ -20,7 +20,7 @@ pub(super) struct SectionColumns {
     pub data: Vec<(usize, usize)>,
 }
 
-/// The columns of one dimension: `b`, or `b.lower`, `b.upper`, `b.start`.
+/// The columns of one dimension: `b`, or `b.lower`, `b.upper`, `b.start`, `b.step`, `b.values`.
 #[derive(Default)]
 pub(super) struct Dimension {
     pub name: String,
@@ -28,7 +28,13 @@ pub(super) struct Dimension {
     pub lower: Option<usize>,
     pub upper: Option<usize>,
     pub start: Option<usize>,
+    pub step: Option<usize>,
+    /// Numbers with blanks between them.
+    pub values: Option<usize>,
 }
+
+/// What may stand behind the dot of a dimension.
+const PARTS: [&str; 5] = ["lower", "upper", "start", "step", "values"];
 
 /// Columns of the table of ribs.
 pub(super) struct RibColumns {
@@ -59,7 +65,9 @@ impl SectionColumns {
                         "lower" => entry.lower = Some(at),
                         "upper" => entry.upper = Some(at),
                         "start" => entry.start = Some(at),
-                        _ => unknown(table, at, did_you_mean(part, ["lower", "upper", "start"].into_iter()), findings),
+                        "step" => entry.step = Some(at),
+                        "values" => entry.values = Some(at),
+                        _ => unknown(table, at, did_you_mean(part, PARTS.into_iter()), findings),
                     }
                 }
                 Some((dimension, _)) => unknown(table, at, did_you_mean(dimension, dimensions()), findings),
@@ -136,7 +144,7 @@ fn required(table: &Table, name: &str, findings: &mut Findings) -> Option<usize>
 
 fn unknown(table: &Table, at: usize, near: Option<String>, findings: &mut Findings) {
     let message = format!("unknown column `{}`", table.headers[at]);
-    let rule = "a dotted header is part of a dimension: b.lower, b.upper, b.start";
+    let rule = "a dotted header is part of a dimension: b.lower, b.upper, b.start, b.step, b.values";
     findings.mistake(MistakeCode::Table, table.place(1, at as u16), message, near.unwrap_or_else(|| rule.into()));
 }
 
