@@ -36,6 +36,7 @@ const LIBRARIES: &[(&str, &[&str])] = &[
     ("csv", &["input", "log", "report", "mesh"]),
     ("feral", &["linear_algebra"]),
     ("maud", &["report"]),
+    ("rust_xlsxwriter", &["report"]),
 ];
 
 #[test]

@@ -112,6 +112,12 @@ pub struct Solve {
     /// the ribs by geometry.csv beside the problem file
     #[arg(long, value_name = "OUT")]
     pub solids: Vec<PathBuf>,
+    /// Write the schedule of ribs into this workbook (.xlsx): sizes at both ends, volume, mass, utilisation
+    #[arg(long, value_name = "OUT")]
+    pub schedule: Option<PathBuf>,
+    /// Write the sized structure in the Structural Analysis Format (SAF) into this workbook (.xlsx), for other programs
+    #[arg(long, value_name = "OUT")]
+    pub saf: Option<PathBuf>,
     #[command(flatten)]
     pub limits: Limits,
     /// Leave SVG pictures as well: convergence, sections before and after, the ribs and profiles along the line, the

@@ -12,6 +12,8 @@ use ribopt::report::text::count;
 use ribopt::report::{result, summary};
 use ribopt::run::network::{self, Network};
 use ribopt::run::report::{NETWORK, report};
+use ribopt::run::saf::saf;
+use ribopt::run::schedule::schedule;
 use ribopt::run::solve::{Request, Solved, solve};
 use ribopt::run::{RunError, Subject, Watcher, choice};
 
@@ -53,6 +55,7 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     if let Some(network) = network {
         draw(arguments, &subject, &solved, &network)?;
     }
+    workbooks(arguments, &subject, &solved)?;
     if arguments.report {
         let written = report(&[solved.folder().to_path_buf()], None)?;
         if !(arguments.json || arguments.quiet) {
@@ -67,10 +70,33 @@ fn inputs(arguments: &Solve, subject: &Subject) -> Result<Inputs, RunError> {
     let mut inputs = subject.inputs.clone();
     arguments.start.iter().for_each(|start| inputs.add(start));
     inputs.add(&arguments.file.with_file_name(network::GEOMETRY));
+    for out in arguments.schedule.iter().chain(&arguments.saf) {
+        if out.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("xlsx")) {
+            return Err(RunError::Choice(format!("{}: this is to be a workbook, which ends in .xlsx", out.display())));
+        }
+        inputs.spare([out.clone()])?;
+    }
     for out in &arguments.solids {
         inputs.spare([out.clone(), out.with_extension("csv"), out.with_extension("json")])?;
     }
     Ok(inputs)
+}
+
+/// The schedule of ribs, and the structure for other programs.
+fn workbooks(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Failure> {
+    let mut lines = Vec::new();
+    if let Some(out) = &arguments.schedule {
+        schedule(subject, solved, out)?;
+        lines.push(format!("schedule: {}", out.display()));
+    }
+    if let Some(out) = &arguments.saf {
+        saf(subject, solved, out)?;
+        lines.push(format!("structure: {}", out.display()));
+    }
+    match arguments.json || arguments.quiet {
+        true => Ok(()),
+        false => output::print(|to| lines.iter().try_for_each(|line| writeln!(to, "{line}"))),
+    }
 }
 
 fn show(arguments: &Solve, subject: &Subject, solved: &Solved) -> Result<(), Failure> {

@@ -46,7 +46,8 @@ pub fn mass(problem: &Problem, x: &[f64]) -> Option<f64> {
     lines(problem, &volumes).map(|line| line.mass()).sum()
 }
 
-fn all_sizes<'a>(problem: &'a Problem, x: &'a [f64]) -> impl Iterator<Item = Size<'a>> {
+/// Dimensions of every section, and its properties where there are not too many.
+pub(super) fn all_sizes<'a>(problem: &'a Problem, x: &'a [f64]) -> impl Iterator<Item = Size<'a>> {
     let evaluation = Evaluation::at(problem, x);
     let with_properties = problem.sections.names.len() <= MOST_PROPERTIES;
     (0..problem.sections.names.len()).flat_map(move |s| {
@@ -107,7 +108,8 @@ pub(super) fn rib_volumes(
     Ok(volumes)
 }
 
-fn lines<'a>(problem: &'a Problem, volumes: &'a [f64]) -> impl Iterator<Item = RibVolume<'a>> {
+/// Every rib with its volume.
+pub(super) fn lines<'a>(problem: &'a Problem, volumes: &'a [f64]) -> impl Iterator<Item = RibVolume<'a>> {
     let ribs = &problem.ribs;
     volumes.iter().enumerate().map(move |(r, &volume)| RibVolume {
         rib: &ribs.names[r],

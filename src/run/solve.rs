@@ -13,7 +13,7 @@ use super::refinement;
 use super::remaining::Remaining;
 use super::results::{Ending, Results};
 use super::unobserved::unobserved;
-use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, strongest, structure_files, utilisation};
+use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, stand_in, strongest, structure_files, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
 use crate::problem::Settings;
@@ -61,7 +61,7 @@ pub struct Solved {
 impl Solved {
     /// What reports speak of.
     pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
-        let subject = self.judged.as_ref().unwrap_or(subject);
+        let subject = self.judged(subject);
         Findings {
             about: &self.about,
             model: subject.shown(),
@@ -71,6 +71,11 @@ impl Solved {
             mass: self.mass,
             utilisation: self.utilisation.as_ref(),
         }
+    }
+
+    /// The problem that the point is of: the user's, or the one it was judged in.
+    pub fn judged<'a>(&'a self, subject: &'a Subject) -> &'a Subject {
+        self.judged.as_ref().unwrap_or(subject)
     }
 
     /// Where the files are.
@@ -105,6 +110,7 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let (mut outcome, judged) = further.judged(subject, &task, |task| records.watch(task, &request.choices, watcher));
     let judged = followed_up(subject, (&mut outcome, judged), &mut about, &further);
     about.warnings.extend(refinement::remarks(subject, &outcome.x));
+    about.warnings.extend(stand_in::remark(judged.as_ref().unwrap_or(subject), &outcome));
     let subject = judged.as_ref().unwrap_or(subject);
     records.close(&mut outcome);
     about.warnings.extend(outcome.moved_start.iter().map(|moved| moved.remark.clone()));
