@@ -27,6 +27,7 @@ fn about(sense: Sense) -> About {
         warnings: Vec::new(),
         chosen: Vec::new(),
         changes: Vec::new(),
+        ..About::default()
     }
 }
 

@@ -183,23 +183,17 @@ fn supports(structure: &Structure, units: &Converter<'_>) -> Result<Sheet, RunEr
     let stiff = ["X [MN/m]", "Y [MN/m]", "Z [MN/m]", "Fix [MNm/rad]", "Fiy [MNm/rad]", "Fiz [MNm/rad]"];
     let mut sheet = Sheet::new("StructuralPointSupport", &["Name", "Type", "Boundary condition", "Node"]);
     sheet.header.extend(free.map(String::from).into_iter().chain(stiff.map(|unit| format!("Stiffness {unit}"))));
-    let there = structure.plane.directions();
     for support in &structure.supports {
         let node = structure.nodes.names[support.node as usize].to_string();
         let mut row: Vec<Cell> = vec![format!("S {node}").into(), "Custom".into(), "In node".into(), node.into()];
-        for at in 0..6 {
+        for (at, there) in structure.plane.directions().into_iter().enumerate() {
             // What a plane structure cannot do is held where it stands in space.
-            let held = support.fixed[at] || !there[at];
-            row.push(
-                if held {
-                    "Rigid"
-                } else if support.springs[at] > 0.0 {
-                    "Flexible"
-                } else {
-                    "Free"
-                }
-                .into(),
-            );
+            let word = match (support.fixed[at] || !there, support.springs[at] > 0.0) {
+                (true, _) => "Rigid",
+                (false, true) => "Flexible",
+                (false, false) => "Free",
+            };
+            row.push(word.into());
         }
         for (at, spring) in support.springs.iter().enumerate() {
             let symbol = if at < 3 { "MN/m" } else { "MN*m" };

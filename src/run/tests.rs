@@ -39,6 +39,7 @@ fn rib() -> Problem {
             origin: vec![dimension(0, 0), dimension(0, 1), dimension(1, 0), dimension(1, 1)],
             declared: Vec::new(),
             lower: vec![0.05, 0.1, 0.05, 0.1],
+            positive: Vec::new(),
             upper: vec![0.4, 0.6, 0.4, 0.6],
             start: vec![0.2, 0.3, 0.2, 0.3],
             typical: Vec::new(),

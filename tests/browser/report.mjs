@@ -89,6 +89,8 @@ for (const given of pages) {
   await page.emulateMedia({ colorScheme: "dark" });
   await shot(large ? "large" : "dark");
   await page.emulateMedia({ colorScheme: "light", media: "print" });
+  const printed = await page.evaluate(() => document.documentElement.scrollWidth);
+  if (printed > 1280) say(`the page is ${printed} wide where 1280 are printed`);
   if (!large) await shot("print");
   await page.emulateMedia({ media: "screen" });
   await page.setViewportSize({ width: 390, height: 800 });
