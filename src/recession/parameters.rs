@@ -8,7 +8,7 @@ parameters! {
         /// A change ≤ ROUNDINGS·|f| is rounding.
         ROUNDINGS: f64 = 64.0 * f64::EPSILON;
         /// Last digits by which a place is moved to see what rounding makes of a value.
-        DIGITS: [f64; 4] = [-5.0, -2.0, 3.0, 7.0];
+        DIGITS: [f64; 8] = [-7.0, -5.0, -3.0, -2.0, 2.0, 3.0, 5.0, 7.0];
         /// fall(k + 1) ≥ EVEN·fall(k), decade by decade: without end. −ln t falls alike, tᵖ by 10ᵖ times as much; 1/ln t by less up to the tenth.
         EVEN: f64 = 0.9;
         /// Falls at the end of a way that must be even or growing.

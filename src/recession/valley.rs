@@ -111,15 +111,17 @@ impl<'a> Valley<'a> {
 
     /// The heights on the way outwards; `None` where the objective rises or a limit ends the way.
     fn outwards(&self, lead: &Lead, mut floor: Floor, base: Height) -> Option<Vec<Height>> {
-        let (mut last, origin) = (base, floor.x[lead.pivot]);
+        let (mut last, mut noise, origin) = (base, base.noise, floor.x[lead.pivot]);
         let mut heights = vec![base];
         for doubling in DOUBLINGS {
             let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= ENOUGH { break } else { return None }
             };
             let (is_feasible, settled, height) = self.on_rows(lead, settled, height);
-            // What is left of a fall of fifteen digits is rounding of the steps that lead there.
-            let level = last.noise + height.noise + ROUNDINGS * (base.value - last.value);
+            // What is left of a fall of fifteen digits is rounding of the steps that lead there. Last digits may show none by chance
+            // (√(x² + 1) − x is 0 or one last digit of x): farther out there is no less than has been seen.
+            noise = noise.max(height.noise);
+            let level = last.noise.max(noise) + noise + ROUNDINGS * (base.value - last.value);
             if !is_feasible || height.value > last.value + level {
                 // So far from the start that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
                 let is_lost = height.noise > base.value - last.value && doubling >= ENOUGH;
