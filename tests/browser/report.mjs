@@ -88,9 +88,11 @@ for (const given of pages) {
   await shot(large ? "large" : "wide");
   await page.emulateMedia({ colorScheme: "dark" });
   await shot(large ? "large" : "dark");
+  // A sheet of A4 at 96 points per inch.
+  await page.setViewportSize({ width: 794, height: 1123 });
   await page.emulateMedia({ colorScheme: "light", media: "print" });
   const printed = await page.evaluate(() => document.documentElement.scrollWidth);
-  if (printed > 1280) say(`the page is ${printed} wide where 1280 are printed`);
+  if (printed > 794) say(`the page is ${printed} wide on a sheet of 794`);
   if (!large) await shot("print");
   await page.emulateMedia({ media: "screen" });
   await page.setViewportSize({ width: 390, height: 800 });

@@ -77,7 +77,7 @@ pub(super) fn left_out(rows: usize, file: &str) -> Markup {
 /// A section, its kind, and its numbers by name.
 type Section<'t> = (&'t str, &'t str, Vec<(&'t str, &'t str)>);
 
-/// Dimensions and properties, a row per section.
+/// Dimensions and properties, a row per section; a column per section where there are fewer sections than numbers.
 pub(super) fn sizes(left: &Left) -> Markup {
     let Some(sizes) = left.table("sizes.csv") else { return html! {} };
     let mut names: Vec<&str> = Vec::new();
@@ -100,7 +100,14 @@ pub(super) fn sizes(left: &Left) -> Markup {
             [(*section).to_owned(), (*kind).to_owned()].into_iter().chain(names.iter().map(value)).collect()
         })
         .collect();
-    html! { @if !rows.is_empty() { h2 { "Sections" } (table(&header, &rows, "sizes.csv")) } }
+    if rows.len() < header.len() {
+        let turned: Vec<Vec<String>> = (1..header.len())
+            .map(|column| std::iter::once(header[column].to_owned()).chain(rows.iter().map(|row| row[column].clone())).collect())
+            .collect();
+        let header: Vec<&str> = std::iter::once("").chain(sections.iter().map(|(section, ..)| *section)).collect();
+        return html! { @if !rows.is_empty() { h2 { "Sections" } (table(&header, &turned, "sizes.csv")) } };
+    }
+    html! { h2 { "Sections" } (table(&header, &rows, "sizes.csv")) }
 }
 
 /// The schedule of ribs.
