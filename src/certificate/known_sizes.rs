@@ -84,7 +84,7 @@ impl Told {
     /// Where bent rows have a say in sizes that count and that nothing else has told: (place in the Jacobian, the row's limit, variable).
     fn doubted(&self, meta: &Meta, x: &[f64]) -> Vec<(usize, f64, usize)> {
         let is_doubted = |j: usize| {
-            let counts = may_be_zero(meta, j) && !meta.is_fixed(j) && self.known[j] > x[j].abs();
+            let counts = may_be_zero(meta, j) && self.known[j] > x[j].abs();
             counts && self.by_row[j].map_or(self.known[j].is_infinite() && x[j].abs() < 1.0, |i| !meta.is_row_linear(i))
         };
         let bent = limited(meta).filter(|&(i, _)| !meta.is_row_linear(i));
