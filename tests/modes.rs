@@ -163,11 +163,28 @@ fn limits_on_coinciding_frequencies_are_known_in_every_form() {
         ("1/frequency(1)^2 <= 1/900", ""),
         ("2 - f1/10 <= -1", "f1 = \"frequency(1)\""),
         ("-3*frequency(1) <= -90", ""),
+        ("30 <= frequency(1) <= 40", ""),
+        ("1e-3 <= 1/f1 <= 1/30", "f1 = \"frequency(1)\""),
     ] {
         let text = direct.replace("frequency(1) >= 30", form) + "[definitions]\n" + definitions;
         let found: Outcome = outcome(&read(form, &text)).unwrap();
         assert_eq!((found.status, found.scope), (Status::Certified, Extent::Global), "{form}: {}", found.message);
         assert!((found.objective.unwrap() / (2.0 * least_area()) - 1.0).abs() < 1e-8, "{form}: {:?}", found.x);
+    }
+}
+
+/// Where both frequencies are held to one value, or their sum is maximised, each by itself has no derivative at the optimum: nothing is claimed.
+#[test]
+fn what_rests_on_a_single_one_of_coinciding_modes_is_not_certified() {
+    let direct = cross("{ lower = 1e-6, start = 1e-3 }");
+    let sum = direct.replace("minimize = \"p.A + q.A\"", "maximize = \"frequency(1) + frequency(2)\"");
+    for (text, what) in [
+        (direct.replace("frequency(1) >= 30", "frequency(1) == 30"), "held"),
+        (sum.replace("frequency(1) >= 30", "p.A + q.A <= 2e-4"), "sum"),
+    ] {
+        let found: Outcome = outcome(&read(what, &text)).unwrap();
+        assert_eq!(found.status, Status::Uncertified, "{what}: {}", found.message);
+        assert!(!found.certificate.unwrap().certified, "{what}: one verdict");
     }
 }
 

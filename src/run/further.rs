@@ -23,14 +23,23 @@ impl Further<'_> {
         &self,
         subject: &Subject,
         task: &Task<'_>,
-        mut run: impl FnMut(&Task<'_>) -> Outcome,
+        run: impl FnMut(&Task<'_>) -> Outcome,
     ) -> (Outcome, Option<Subject>) {
+        let (outcome, other) = self.found(subject, task, run);
+        (coinciding::unless_undecided(other.as_ref().unwrap_or(subject), outcome), other)
+    }
+
+    fn found(&self, subject: &Subject, task: &Task<'_>, mut run: impl FnMut(&Task<'_>) -> Outcome) -> (Outcome, Option<Subject>) {
         let quiet = self.of_rounds();
-        let near = |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, settings, x, (self.choices, task.starts));
+        // The run that is logged has half of the time, whatever comes before it.
+        let half = |settings: &Settings| Settings { max_seconds: settings.max_seconds / 2.0, ..settings.clone() };
+        let near =
+            |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, &half(settings), x, (self.choices, task.starts));
         let rounds = |rest: &Subject, settings: &Settings, x: &[f64]| self.from(rest, settings, x, (&quiet, 1));
         let foreseen = coinciding::foresee(subject, self.settings, task.start, &near, &rounds);
         let left = self.remaining.settings(task.settings);
-        let task = &Task { settings: left.as_ref().unwrap_or(task.settings), ..*task };
+        let none = Settings { max_seconds: 0.0, ..task.settings.clone() };
+        let task = &Task { settings: left.as_ref().unwrap_or(&none), ..*task };
         if let Some(foreseen) = foreseen {
             let start = foreseen.subject.completed(foreseen.outcome.x.clone());
             let own = foreseen.subject.task(&start, self.interrupt);

@@ -22,11 +22,11 @@ pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
         return Ok(Outcome { message, scope: Extent::Local, ..found });
     }
     if let Some((refined, words)) = coinciding::refined(subject, &point) {
-        let found = judged(&refined, &point);
+        let found = coinciding::unless_undecided(&refined, judged(&refined, &point));
         let message = format!("{words} {}", found.message);
         return Ok(Outcome { message, scope: Extent::Local, ..found });
     }
-    Ok(judged(subject, &point))
+    Ok(coinciding::unless_undecided(subject, judged(subject, &point)))
 }
 
 /// What a point of the user's variables is.

@@ -31,19 +31,48 @@ impl Limited {
 /// The constraints that limit an eigenvalue from below: `frequency(2) >= 8`, and what comes to the same, as `1/frequency(2)^2 <= 1/64` or
 /// a definition in its place.
 pub fn limited(problem: &Problem) -> Vec<Limited> {
-    let constants = Evaluation::constants(problem);
-    let number = |formula: &Formula| constants.value(formula, Item::None).filter(|value| value.is_finite());
     let of = |(at, constraint): (usize, &Constraint)| {
-        let (limit, is_lower) = match (&constraint.right, &constraint.scope) {
-            (Limit::AtLeast(limit), Scope::Once) => (limit, true),
-            (Limit::AtMost(limit), Scope::Once) => (limit, false),
+        let is_lower = match (&constraint.right, &constraint.scope) {
+            (Limit::AtLeast(_), Scope::Once) => true,
+            (Limit::AtMost(_), Scope::Once) => false,
             _ => return None,
         };
-        let (eigenvalue, limit) = solved_for(problem, &constraint.left, (number(limit)?, is_lower), &number)?;
-        let Eigenvalue::Number(pencil, number) = eigenvalue else { return None };
-        Some(Limited { constraint: at, pencil, number, limit })
+        of_side(problem, at, is_lower)
     };
     problem.constraints.iter().enumerate().filter_map(of).collect()
+}
+
+/// What a side of a constraint limits from below.
+fn of_side(problem: &Problem, at: usize, is_lower: bool) -> Option<Limited> {
+    let constants = Evaluation::constants(problem);
+    let number = |formula: &Formula| constants.value(formula, Item::None).filter(|value| value.is_finite());
+    let constraint = &problem.constraints[at];
+    let [lower, upper] = constraint.right.sides();
+    let limit = number(if is_lower { lower } else { upper }?)?;
+    let (eigenvalue, limit) = solved_for(problem, &constraint.left, (limit, is_lower), &number)?;
+    let Eigenvalue::Number(pencil, number) = eigenvalue else { return None };
+    Some(Limited { constraint: at, pencil, number, limit })
+}
+
+/// Two rows for a range: the side that limits an eigenvalue from below, and the other.
+pub(super) fn split_ranges(problem: &mut Problem) {
+    for at in 0..problem.constraints.len() {
+        let Constraint { scope: Scope::Once, right: Limit::Between(lower, upper), .. } = &problem.constraints[at] else {
+            continue;
+        };
+        let sides = [Limit::AtLeast(lower.clone()), Limit::AtMost(upper.clone())];
+        let [own, other] = match (of_side(problem, at, true), of_side(problem, at, false)) {
+            (Some(_), _) => sides,
+            (None, Some(_)) => {
+                let [lower, upper] = sides;
+                [upper, lower]
+            }
+            (None, None) => continue,
+        };
+        problem.constraints[at].right = own;
+        let other = Constraint { detail: "other side".into(), right: other, ..problem.constraints[at].clone() };
+        problem.constraints.push(other);
+    }
 }
 
 /// The eigenvalue that a formula of it and of numbers limits, and from which value on it is met; `None` where it is no limit from below.

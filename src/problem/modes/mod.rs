@@ -113,6 +113,7 @@ impl Response {
 
 /// Makes solvers see the next modes come where an eigenvalue may be the least of several: at an optimum they tend to come down to it.
 pub fn follow(problem: &mut Problem) {
+    limits::split_ranges(problem);
     least::follow_elsewhere(problem);
     limits::follow_limits(problem);
 }
@@ -128,14 +129,16 @@ pub fn defined(problem: &Problem) -> Vec<Eigenvalue> {
 }
 
 fn found(problem: &Problem, definitions: &[(String, Formula)]) -> Vec<Eigenvalue> {
+    let definitions = definitions.iter().map(|(_, formula)| formula);
+    let rows = problem.constraints.iter().flat_map(|row| std::iter::once(&row.left).chain(row.right.formulas()));
+    let all = definitions.chain(std::iter::once(&problem.objective)).chain(rows).chain(&problem.dimension_formulas);
+    eigenvalues_in(problem, all)
+}
+
+/// The eigenvalues in formulas, definitions seen through, each once.
+pub fn eigenvalues_in<'f>(problem: &Problem, formulas: impl Iterator<Item = &'f Formula>) -> Vec<Eigenvalue> {
     let mut walk = Walk { problem, seen: vec![false; problem.definitions.len()], found: Vec::new() };
-    definitions.iter().for_each(|(_, formula)| walk.visit(formula));
-    walk.visit(&problem.objective);
-    for constraint in &problem.constraints {
-        walk.visit(&constraint.left);
-        constraint.right.formulas().for_each(|formula| walk.visit(formula));
-    }
-    problem.dimension_formulas.iter().for_each(|formula| walk.visit(formula));
+    formulas.for_each(|formula| walk.visit(formula));
     walk.found
 }
 

@@ -47,7 +47,7 @@ pub(super) fn clusters(subject: &Subject, x: &[f64]) -> Result<Vec<Cluster>, Eva
         };
         let vectors = &spectrum.vectors[number as usize - 1..last as usize];
         let basis = model.lifted().modes()?.stiffness_times(&z, pencil, vectors)?;
-        let is_tight = (number..last).any(|mode| (shown(mode + 1) / shown(mode) - 1.0).abs() <= APART);
+        let is_tight = (number..last).any(|mode| is_tight(shown(mode), shown(mode + 1)));
         clusters.push(Cluster { at, modes: number..=last, lowest: shown(number), basis, is_tight });
     }
     Ok(clusters)
@@ -136,6 +136,17 @@ pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<boo
         }
     }
     Ok(true)
+}
+
+/// Whether a mode and the next one cannot be told apart.
+pub(super) fn tight_with_next(model: &Reduced<Lifted>, z: &[f64], pencil: Pencil, mode: u32) -> Result<bool, EvaluationError> {
+    let spectrum = model.lifted().modes()?.spectrum(z, pencil, mode as usize + 1)?;
+    let [own, next] = [mode, mode + 1].map(|mode| shown(&spectrum, pencil, mode));
+    Ok(own.is_finite() && is_tight(own, next))
+}
+
+fn is_tight(own: f64, next: f64) -> bool {
+    (next / own - 1.0).abs() <= APART
 }
 
 /// What reports say of them.

@@ -11,6 +11,7 @@
 mod clusters;
 #[cfg(test)]
 mod tests;
+mod undecided;
 
 use super::Subject;
 use super::settled::Settled;
@@ -19,6 +20,8 @@ use crate::crosscheck::{Outcome, Status};
 use crate::problem::Settings;
 use crate::problem::modes::{Cut, Followed, followed, with_cuts};
 use clusters::{Cluster, clusters, come_down, cuts_of, meets_limits, words};
+use undecided::refuse;
+pub(super) use undecided::unless_undecided;
 
 /// Rounds of exchange: each adds the directions in which T is negative at the last point.
 const ROUNDS: usize = 8;
@@ -115,8 +118,7 @@ impl Coinciding {
             outcome.scope = Extent::Local;
             outcome.message = format!("{} {}", self.words, outcome.message);
         } else if meets_limits(subject, &outcome.x).unwrap_or(false) {
-            // Nothing is proved where single rows have no derivative.
-            outcome.status = Status::Uncertified;
+            refuse(&mut outcome, "modes coincide, and not all of their combinations are met as they should be");
         } else {
             return None;
         }
