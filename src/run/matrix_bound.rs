@@ -13,7 +13,7 @@ use super::unobserved::{by_interior_point, unobserved};
 use crate::crosscheck::{Outcome, Task};
 use crate::expression::operators::{Binary, Fold};
 use crate::model::EvaluationError;
-use crate::problem::modes::{Limited, Pencil, limited, without};
+use crate::problem::modes::{Limited, Pencil, eigenvalues_in, limited, without};
 use crate::problem::{Constraint, Dimension, Formula, Limit, Problem};
 
 /// Rounds of cutting planes; each brings the bound up.
@@ -37,7 +37,12 @@ pub(super) fn relaxed(
     if limits.is_empty() || !by_frequencies || !is_affine(problem) {
         return None;
     }
-    let gone: Vec<usize> = limits.iter().map(|limit| limit.constraint).collect();
+    // Without what else is asked of eigenvalues, the bound lies below as well.
+    let asks = |row: &Constraint| {
+        let formulas = std::iter::once(&row.left).chain(row.right.formulas());
+        !eigenvalues_in(problem, formulas).is_empty()
+    };
+    let gone: Vec<usize> = (0..problem.constraints.len()).filter(|&at| asks(&problem.constraints[at])).collect();
     let mut rest = without(problem, &gone);
     let (mut point, mut best) = (x.to_vec(), None);
     for _ in 0..ROUNDS {

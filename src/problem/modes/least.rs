@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::limits::{FOLLOWED, follow_row, limited, with_eigenvalues};
 use super::{Eigenvalue, Pencil};
-use crate::expression::operators::Fold;
+use crate::expression::operators::{Binary, Fold};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};
 
 /// The least of an eigenvalue and the next ones.
@@ -23,15 +23,9 @@ pub struct Least {
 /// The one that a formula is.
 pub(super) fn least_of(formula: &Formula) -> Option<Least> {
     let Formula::Fold(Fold::Min, list) = formula else { return None };
-    let number = |formula: &Formula| match formula {
-        Formula::Response(response) => match response.eigenvalue()? {
-            Eigenvalue::Number(pencil, number) => Some(Least { pencil, number }),
-            Eigenvalue::Cut(_) => None,
-        },
-        _ => None,
-    };
-    let first = number(list.first()?)?;
-    let follows = |(at, formula): (usize, &Formula)| number(formula) == Some(Least { number: first.number + at as u32, ..first });
+    let first = lowest_of(list.first()?)?;
+    let follows =
+        |(at, formula): (usize, &Formula)| lowest_of(formula) == Some(Least { number: first.number + at as u32, ..first });
     list.iter().enumerate().all(follows).then_some(first)
 }
 
@@ -105,13 +99,29 @@ fn restated(problem: &Problem, constraint: &Constraint) -> Option<Restated> {
 /// A formula with the least of an eigenvalue and the next ones in the place of each; `None` where there is none.
 fn with_leasts(problem: &Problem, formula: &Formula) -> Option<Formula> {
     let least = |formula: &Formula| {
-        let Formula::Response(response) = formula else { return None };
-        let Eigenvalue::Number(pencil, number) = response.eigenvalue()? else { return None };
+        let Least { pencil, number } = lowest_of(formula)?;
         let one = |number| Formula::Response(Arc::new(pencil.response(number)));
         Some(Formula::Fold(Fold::Min, (number..=number + FOLLOWED).map(one).collect()))
     };
     let found = with_eigenvalues(problem, formula, &least);
     (found != *formula).then_some(found)
+}
+
+/// The eigenvalue that a formula is, be it as the least of several of one pencil.
+fn lowest_of(formula: &Formula) -> Option<Least> {
+    match formula {
+        Formula::Response(response) => match response.eigenvalue()? {
+            Eigenvalue::Number(pencil, number) => Some(Least { pencil, number }),
+            Eigenvalue::Cut(_) => None,
+        },
+        Formula::Binary(Binary::Min, ..) | Formula::Fold(Fold::Min, _) => {
+            let all: Option<Vec<Least>> = formula.children().map(lowest_of).collect();
+            let all = all?;
+            let lowest = all.iter().min_by_key(|one| one.number)?;
+            all.iter().all(|one| one.pencil == lowest.pencil).then_some(*lowest)
+        }
+        _ => None,
+    }
 }
 
 /// The problem restated; `None` where kinks stay.
