@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use super::limits::{FOLLOWED, follow_row, limited, with_eigenvalues};
+use super::limits::limited;
+use super::replaced::{FOLLOWED, follow_row, with_eigenvalues};
 use super::{Eigenvalue, Pencil};
 use crate::expression::operators::{Binary, Fold};
 use crate::problem::{Constraint, Formula, Limit, Problem, Scope};

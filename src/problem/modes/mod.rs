@@ -1,12 +1,15 @@
 //! Eigenvalues of the structure that a problem asks for: buckling factors and natural frequencies.
 
+mod followed;
 mod least;
 mod limits;
+mod replaced;
 
 use std::sync::Arc;
 
+pub use followed::{Followed, followed, with_cuts, without};
 pub use least::{Helped, Least};
-pub use limits::{Followed, Limited, followed, limited, with_cuts, without};
+pub use limits::{Limited, limited};
 
 use super::formula::{Response, What};
 use super::{Formula, Problem};
