@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::least::{Helped, Least, helped, least_of, leasts};
 use super::limits::{Limited, limited};
 use super::replaced::{with_eigenvalues, with_response};
-use super::{Cut, Pencil};
+use super::{Cut, Pencil, eigenvalues};
 use crate::expression::operators::Fold;
 use crate::problem::formula::{Response, What};
 use crate::problem::{Constraint, Formula, Problem};
@@ -64,6 +64,9 @@ impl Followed {
 
 /// All that a problem has of them.
 pub fn followed(problem: &Problem) -> Vec<Followed> {
+    if eigenvalues(problem).is_empty() {
+        return Vec::new();
+    }
     let limits = limited(problem).into_iter().map(Followed::Limit);
     let rows = helped(problem).into_iter().map(Followed::Row);
     limits.chain(rows).chain(leasts(problem).into_iter().map(Followed::Least)).collect()

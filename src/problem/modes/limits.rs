@@ -29,20 +29,20 @@ impl Limited {
 /// The constraints that limit an eigenvalue from below: `frequency(2) >= 8`, and what comes to the same, as `1/frequency(2)^2 <= 1/64` or
 /// a definition in its place.
 pub fn limited(problem: &Problem) -> Vec<Limited> {
+    let constants = Evaluation::constants(problem);
     let of = |(at, constraint): (usize, &Constraint)| {
         let is_lower = match (&constraint.right, &constraint.scope) {
             (Limit::AtLeast(_), Scope::Once) => true,
             (Limit::AtMost(_), Scope::Once) => false,
             _ => return None,
         };
-        of_side(problem, at, is_lower)
+        of_side(problem, &constants, at, is_lower)
     };
     problem.constraints.iter().enumerate().filter_map(of).collect()
 }
 
 /// What a side of a constraint limits from below.
-fn of_side(problem: &Problem, at: usize, is_lower: bool) -> Option<Limited> {
-    let constants = Evaluation::constants(problem);
+fn of_side(problem: &Problem, constants: &Evaluation<'_>, at: usize, is_lower: bool) -> Option<Limited> {
     let number = |formula: &Formula| constants.value(formula, Item::None).filter(|value| value.is_finite());
     let constraint = &problem.constraints[at];
     let [lower, upper] = constraint.right.sides();
@@ -54,19 +54,18 @@ fn of_side(problem: &Problem, at: usize, is_lower: bool) -> Option<Limited> {
 
 /// Two rows for a range: the side that limits an eigenvalue from below, and the other.
 pub(super) fn split_ranges(problem: &mut Problem) {
-    for at in 0..problem.constraints.len() {
-        let Constraint { scope: Scope::Once, right: Limit::Between(lower, upper), .. } = &problem.constraints[at] else {
-            continue;
-        };
-        let sides = [Limit::AtLeast(lower.clone()), Limit::AtMost(upper.clone())];
-        let [own, other] = match (of_side(problem, at, true), of_side(problem, at, false)) {
-            (Some(_), _) => sides,
-            (None, Some(_)) => {
-                let [lower, upper] = sides;
-                [upper, lower]
-            }
-            (None, None) => continue,
-        };
+    let constants = Evaluation::constants(problem);
+    let split = |(at, constraint): (usize, &Constraint)| {
+        let (Scope::Once, Limit::Between(lower, upper)) = (&constraint.scope, &constraint.right) else { return None };
+        let sides = (Limit::AtLeast(lower.clone()), Limit::AtMost(upper.clone()));
+        match [true, false].map(|is_lower| of_side(problem, &constants, at, is_lower)) {
+            [Some(_), _] => Some((at, sides.0, sides.1)),
+            [None, Some(_)] => Some((at, sides.1, sides.0)),
+            [None, None] => None,
+        }
+    };
+    let ranges: Vec<(usize, Limit, Limit)> = problem.constraints.iter().enumerate().filter_map(split).collect();
+    for (at, own, other) in ranges {
         problem.constraints[at].right = own;
         let other = Constraint { detail: "other side".into(), right: other, ..problem.constraints[at].clone() };
         problem.constraints.push(other);

@@ -116,6 +116,9 @@ impl Response {
 
 /// Makes solvers see the next modes come where an eigenvalue may be the least of several: at an optimum they tend to come down to it.
 pub fn follow(problem: &mut Problem) {
+    if eigenvalues(problem).is_empty() {
+        return;
+    }
     limits::split_ranges(problem);
     least::follow_elsewhere(problem);
     limits::follow_limits(problem);
