@@ -23,6 +23,11 @@ pub struct Constraint {
 }
 
 impl Constraint {
+    /// The formulas of both its sides.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        std::iter::once(&self.left).chain(self.right.formulas())
+    }
+
     /// Rows whose values are asked for: without a limit, a place or a text.
     pub fn unlimited(name: impl Into<String>, scope: Scope, left: Formula) -> Constraint {
         let right = Limit::AtMost(Formula::Constant(f64::INFINITY));

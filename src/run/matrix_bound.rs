@@ -38,10 +38,7 @@ pub(super) fn relaxed(
         return None;
     }
     // Without what else is asked of eigenvalues, the bound lies below as well.
-    let asks = |row: &Constraint| {
-        let formulas = std::iter::once(&row.left).chain(row.right.formulas());
-        !eigenvalues_in(problem, formulas).is_empty()
-    };
+    let asks = |row: &Constraint| !eigenvalues_in(problem, row.formulas()).is_empty();
     let gone: Vec<usize> = (0..problem.constraints.len()).filter(|&at| asks(&problem.constraints[at])).collect();
     let mut rest = without(problem, &gone);
     let (mut point, mut best) = (x.to_vec(), None);

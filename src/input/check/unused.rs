@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::Assembly;
 use crate::expression::ast::Collection;
 use crate::input::source::Place;
-use crate::problem::Formula;
 use crate::problem::formula::What;
+use crate::problem::{Constraint, Formula};
 
 impl Assembly<'_> {
     /// Warns of load cases in no combination and no response and of combinations in no response, where there are responses at all.
@@ -15,7 +15,7 @@ impl Assembly<'_> {
         let mut mentioned = BTreeSet::new();
         let definitions = self.problem.definitions.iter().map(|(_, formula)| formula);
         let rows = self.problem.constraints.iter();
-        let rows = rows.flat_map(|row| std::iter::once(&row.left).chain(row.right.formulas()));
+        let rows = rows.flat_map(Constraint::formulas);
         let all = definitions.chain(rows).chain([&self.problem.objective]);
         all.for_each(|formula| load_sets(formula, &mut mentioned));
         if mentioned.is_empty() {

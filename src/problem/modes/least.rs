@@ -138,16 +138,14 @@ pub(super) fn follow_elsewhere(problem: &mut Problem) {
             problem.objective = trial.objective;
         }
     }
-    let helped = helped(problem);
-    for one in &helped {
-        let Least { pencil, number } = one.eigenvalue;
-        (number + 1..=number + FOLLOWED).for_each(|next| follow_row(problem, one.constraint, pencil.response(next), next));
-    }
     let limited: Vec<usize> = limited(problem).iter().map(|limit| limit.constraint).collect();
-    let is_done = |at: &usize| limited.contains(at) || helped.iter().any(|one| one.constraint == *at);
-    for at in (0..problem.constraints.len()).filter(|at| !is_done(at)) {
-        if let Some(Restated::Bounded(left)) = restated(problem, &problem.constraints[at]) {
-            problem.constraints[at].left = left;
+    for at in (0..problem.constraints.len()).filter(|at| !limited.contains(at)) {
+        match restated(problem, &problem.constraints[at]) {
+            Some(Restated::Rows(Least { pencil, number })) => {
+                (number + 1..=number + FOLLOWED).for_each(|next| follow_row(problem, at, pencil.response(next), next));
+            }
+            Some(Restated::Bounded(left)) => problem.constraints[at].left = left,
+            None => {}
         }
     }
 }

@@ -12,7 +12,7 @@ pub use least::{Helped, Least};
 pub use limits::{Limited, limited};
 
 use super::formula::{Response, What};
-use super::{Formula, Problem};
+use super::{Constraint, Formula, Problem};
 
 /// The factor of a mode that does not buckle under any multiple of the loads: beyond any load, and still a number.
 pub const NEVER: f64 = 1e30;
@@ -76,6 +76,14 @@ impl Pencil {
         Response { set, subject: super::formula::Subject::Whole, what }
     }
 
+    /// What happens in its modes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Pencil::Buckling(_) => "buckling",
+            Pencil::Vibration => "vibration",
+        }
+    }
+
     /// The eigenvalue that users know, from μ of B φ = μ K φ: 1/μ as a factor, 1/(2π√μ) as a frequency.
     pub fn shown(self, mu: f64) -> f64 {
         match self {
@@ -136,7 +144,7 @@ pub fn defined(problem: &Problem) -> Vec<Eigenvalue> {
 
 fn found(problem: &Problem, definitions: &[(String, Formula)]) -> Vec<Eigenvalue> {
     let definitions = definitions.iter().map(|(_, formula)| formula);
-    let rows = problem.constraints.iter().flat_map(|row| std::iter::once(&row.left).chain(row.right.formulas()));
+    let rows = problem.constraints.iter().flat_map(Constraint::formulas);
     let all = definitions.chain(std::iter::once(&problem.objective)).chain(rows).chain(&problem.dimension_formulas);
     eigenvalues_in(problem, all)
 }

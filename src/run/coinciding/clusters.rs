@@ -126,8 +126,9 @@ pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<boo
     let (z, tolerance) = (model.solved(x)?, cut.settings.constraint_tolerance);
     let (modes, wanted) = (model.lifted().modes()?, eigenvalues(cut.problem()));
     let values = modes.values(&z)?;
-    for (_, followed) in of.iter().enumerate().filter(|(at, one)| !matches!(one, Followed::Limit(_)) && !of[..*at].contains(one))
-    {
+    let is_first = |(at, one): &(usize, &Followed)| !of[..*at].contains(one);
+    let without_limit = of.iter().enumerate().filter(is_first).filter(|(_, one)| !matches!(one, Followed::Limit(_)));
+    for (_, followed) in without_limit {
         let own = |one: &Eigenvalue| matches!(*one, Eigenvalue::Cut(cut) if of[cut as usize] == *followed);
         let seen = wanted.iter().zip(&values).filter(|(one, _)| own(one)).map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
         let Least { pencil, number } = followed.eigenvalue();
@@ -138,11 +139,11 @@ pub(super) fn come_down(cut: &Subject, of: &[Followed], x: &[f64]) -> Result<boo
     Ok(true)
 }
 
-/// Whether a mode and the next one cannot be told apart.
-pub(super) fn tight_with_next(model: &Reduced<Lifted>, z: &[f64], pencil: Pencil, mode: u32) -> Result<bool, EvaluationError> {
+/// The first of two modes that cannot be told apart, one of which is this: with the one below it, or with the one above.
+pub(super) fn tight_pair(model: &Reduced<Lifted>, z: &[f64], pencil: Pencil, mode: u32) -> Result<Option<u32>, EvaluationError> {
     let spectrum = model.lifted().modes()?.spectrum(z, pencil, mode as usize + 1)?;
-    let [own, next] = [mode, mode + 1].map(|mode| shown(&spectrum, pencil, mode));
-    Ok(own.is_finite() && is_tight(own, next))
+    let shown = |mode: u32| shown(&spectrum, pencil, mode);
+    Ok((mode.saturating_sub(1).max(1)..=mode).find(|&first| shown(first).is_finite() && is_tight(shown(first), shown(first + 1))))
 }
 
 fn is_tight(own: f64, next: f64) -> bool {
@@ -153,7 +154,7 @@ fn is_tight(own: f64, next: f64) -> bool {
 pub(super) fn words(clusters: &[Cluster]) -> String {
     let of = |cluster: &Cluster| {
         let numbers: Vec<String> = cluster.modes.clone().map(|mode| mode.to_string()).collect();
-        let what = if cluster.at.eigenvalue().pencil == Pencil::Vibration { "vibration" } else { "buckling" };
+        let what = cluster.at.eigenvalue().pencil.name();
         let place = if matches!(cluster.at, Followed::Limit(_)) { " at their limit" } else { "" };
         format!("Modes {} of {what} coincide{place}: the point is judged by all their combinations.", numbers.join(" and "))
     };

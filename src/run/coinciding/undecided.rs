@@ -1,7 +1,7 @@
 //! Certified points that rest on a single one of coinciding eigenvalues: it has no derivative there, and nothing is proved.
 
 use super::super::Subject;
-use super::clusters::tight_with_next;
+use super::clusters::tight_pair;
 use crate::certificate::Extent;
 use crate::crosscheck::{Outcome, Status};
 use crate::model::EvaluationError;
@@ -42,15 +42,11 @@ fn undecided(subject: &Subject, outcome: &Outcome) -> Result<Option<String>, Eva
     }
     let z = model.solved(&outcome.x)?;
     for (pencil, number) in numbers {
-        // Of the pair with the mode below, and of the pair with the one above.
-        for first in number.saturating_sub(1).max(1)..=number {
-            if tight_with_next(model, &z, pencil, first)? {
-                let what = if pencil == Pencil::Vibration { "vibration" } else { "buckling" };
-                let next = first + 1;
-                return Ok(Some(format!(
-                    "modes {first} and {next} of {what} coincide, and mode {number} alone has no derivative there"
-                )));
-            }
+        if let Some(first) = tight_pair(model, &z, pencil, number)? {
+            let (what, next) = (pencil.name(), first + 1);
+            return Ok(Some(format!(
+                "modes {first} and {next} of {what} coincide, and mode {number} alone has no derivative there"
+            )));
         }
     }
     Ok(None)
@@ -68,7 +64,7 @@ fn rested_on(subject: &Subject, outcome: &Outcome) -> Vec<(Pencil, u32)> {
         !told || multipliers[first..row].iter().any(|multiplier| *multiplier != 0.0)
     };
     let active: Vec<&Constraint> = problem.constraints.iter().filter(&mut is_active).collect();
-    let formulas = active.into_iter().flat_map(|constraint| std::iter::once(&constraint.left).chain(constraint.right.formulas()));
+    let formulas = active.into_iter().flat_map(Constraint::formulas);
     let single = |one: Eigenvalue| match one {
         Eigenvalue::Number(pencil, number) => Some((pencil, number)),
         Eigenvalue::Cut(_) => None,
