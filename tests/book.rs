@@ -35,3 +35,14 @@ fn the_tutorial_tells_the_truth() {
     assert!((listed - 0.06 * 0.32 * 4.5).abs() < 1e-12, "{listed}");
     assert!(page.contains("0.419 %") && (listed / free - 1.00419).abs() < 1e-5, "{}", listed / free);
 }
+
+/// In the site only what stands under docs/ is there.
+#[test]
+fn no_page_links_out_of_the_book() {
+    for entry in fs::read_dir("docs").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "md") {
+            assert!(!fs::read_to_string(&path).unwrap().contains("](../"), "{} links out of docs/", path.display());
+        }
+    }
+}

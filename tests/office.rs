@@ -1,11 +1,13 @@
 //! What an office needs of a run: units in every report, lists in tables, a schedule as a workbook, hints.
 
+mod support;
+
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
+use support::workbook::part;
 
 fn ribopt(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ribopt")).current_dir(folder).args(arguments).output().unwrap()
@@ -116,14 +118,6 @@ fn tables_of_sections_have_lists() {
     assert!(refused.contains("mistake[units]: the column has a unit, and this is no number"), "{refused}");
 }
 
-/// The text of a part of a workbook.
-fn part(path: &Path, name: &str) -> String {
-    let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
-    let mut text = String::new();
-    archive.by_name(name).unwrap().read_to_string(&mut text).unwrap();
-    text
-}
-
 #[test]
 fn the_schedule_is_a_workbook_with_every_rib() {
     let folder = tempfile::tempdir().unwrap();
@@ -148,112 +142,4 @@ fn the_schedule_is_a_workbook_with_every_rib() {
     let refused = ribopt(folder.path(), &["solve", problem.to_str().unwrap(), "--schedule", "ribs.csv"]);
     assert_eq!(refused.status.code(), Some(2), "{}", text_of(&refused));
     assert!(text_of(&refused).contains("ends in .xlsx"));
-}
-
-/// The titles of a sheet and its rows, by the shared strings of the workbook.
-fn sheet(path: &Path, number: usize) -> Vec<Vec<String>> {
-    let unescaped = |text: &str| text.replace("&amp;", "&").replace("&lt;", "<");
-    let strings = part(path, "xl/sharedStrings.xml");
-    let strings: Vec<String> = strings
-        .split("<si>")
-        .skip(1)
-        .map(|item| unescaped(item.split_once('>').unwrap().1.split("</t>").next().unwrap()))
-        .collect();
-    let cell = |text: &str| {
-        let value = text.split("<v>").nth(1).map_or("", |rest| rest.split("</v>").next().unwrap());
-        if text.contains("t=\"s\"") { strings[value.parse::<usize>().unwrap()].clone() } else { value.to_owned() }
-    };
-    let column = |text: &str| {
-        text.split('"')
-            .next()
-            .unwrap()
-            .bytes()
-            .take_while(u8::is_ascii_uppercase)
-            .fold(0, |at, letter| 26 * at + usize::from(letter - b'A') + 1)
-    };
-    let rows = part(path, &format!("xl/worksheets/sheet{number}.xml"));
-    let row = |text: &str| {
-        let mut cells = Vec::new();
-        for part in text.split("<c r=\"").skip(1) {
-            cells.resize(column(part).max(cells.len()), String::new());
-            *cells.last_mut().unwrap() = cell(part);
-        }
-        cells
-    };
-    rows.split("<row ").skip(1).map(row).collect()
-}
-
-/// Sheets of the format with the columns it requires (SAF 2.2, structural analysis elements, supports and hinges).
-const SAF: [(&str, &[&str]); 7] = [
-    ("StructuralMaterial", &["Name", "Type", "Quality"]),
-    ("StructuralCrossSection", &["Name", "Material", "Cross-section type", "Shape", "Parameters [mm]"]),
-    ("StructuralPointConnection", &["Name", "Coordinate X [m]", "Coordinate Y [m]", "Coordinate Z [m]"]),
-    (
-        "StructuralCurveMember",
-        &[
-            "Name",
-            "Cross section",
-            "Nodes",
-            "Segments",
-            "LCS",
-            "LCS Rotation [deg]",
-            "Coordinate X [m]",
-            "System line",
-            "Analysis Z Eccentricity of End Node [mm]",
-            "Behaviour in analysis",
-        ],
-    ),
-    ("StructuralCurveMemberVarying", &["Name", "Cross sections 1", "Span 1", "Alignment 1"]),
-    ("StructuralPointSupport", &["Name", "Boundary condition", "Node", "ux", "uy", "uz", "fix", "fiy", "fiz"]),
-    ("RelConnectsStructuralMember", &["Name", "Member", "Position", "ux", "uy", "uz", "fix", "fiy", "fiz"]),
-];
-
-#[test]
-fn the_structure_goes_to_other_programs() {
-    let folder = tempfile::tempdir().unwrap();
-    let problem = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/portal-frame.toml");
-    let output = ribopt(folder.path(), &["solve", problem.to_str().unwrap(), "--quiet", "--saf", "portal.xlsx"]);
-    assert!(output.status.success(), "{}", text_of(&output));
-    let path = folder.path().join("portal.xlsx");
-    let mut tables = std::collections::HashMap::new();
-    for (at, (name, required)) in SAF.into_iter().enumerate() {
-        assert!(part(&path, "xl/workbook.xml").contains(&format!("\"{name}\"")), "{name}");
-        let rows = sheet(&path, at + 3);
-        for title in required {
-            let column = rows[0].iter().position(|known| known == title).unwrap_or_else(|| panic!("{name} lacks {title}"));
-            assert!(
-                rows[1..].iter().all(|row| row.get(column).is_some_and(|cell| !cell.is_empty())),
-                "{name}: {title} has empty cells"
-            );
-        }
-        tables.insert(name, rows);
-    }
-    let names = |table: &str| tables[table][1..].iter().map(|row| row[0].clone()).collect::<Vec<_>>();
-    let of = |table: &str, title: &str| {
-        let column = tables[table][0].iter().position(|known| known == title).unwrap();
-        tables[table][1..].iter().map(|row| row[column].clone()).collect::<Vec<_>>()
-    };
-    // Every reference leads somewhere.
-    assert!(of("StructuralCurveMember", "Cross section").iter().all(|section| names("StructuralCrossSection").contains(section)));
-    let nodes = of("StructuralCurveMember", "Nodes");
-    assert!(
-        nodes.iter().flat_map(|pair| pair.split("; ")).all(|node| names("StructuralPointConnection").contains(&node.to_owned()))
-    );
-    assert!(of("StructuralPointSupport", "Node").iter().all(|node| names("StructuralPointConnection").contains(node)));
-    assert!(of("StructuralCrossSection", "Material").iter().all(|material| names("StructuralMaterial").contains(material)));
-    let tapers = of("StructuralCurveMember", "Arbitrary definition");
-    assert_eq!(tapers, names("StructuralCurveMemberVarying"), "every rib of the portal tapers");
-    for pair in of("StructuralCurveMemberVarying", "Cross sections 1") {
-        assert!(pair.split(", ").all(|section| names("StructuralCrossSection").contains(&section.to_owned())), "{pair}");
-    }
-    // E of steel, and an H beam of six numbers, the web 8 mm thick.
-    assert_eq!(of("StructuralMaterial", "E modulus [MPa]"), ["210000"]);
-    assert!(
-        of("StructuralCrossSection", "Parameters [mm]").iter().all(|text| text.split("; ").count() == 6 && text.ends_with("; 8"))
-    );
-    // Held out of its plane, pinned in it.
-    let of_foot = |title: &str| of("StructuralPointSupport", title)[0].clone();
-    assert_eq!(["ux", "uy", "uz", "fix", "fiy", "fiz"].map(of_foot), ["Rigid", "Rigid", "Rigid", "Rigid", "Free", "Rigid"]);
-    let unitless = ribopt(folder.path(), &["solve", "none.toml", "--saf", "x.xlsx"]);
-    assert_eq!(unitless.status.code(), Some(2));
 }

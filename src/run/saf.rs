@@ -1,8 +1,10 @@
 //! `solve --saf`: the sized structure in the Structural Analysis Format (SAF 2, <https://www.saf.guide>), a workbook that other programs
-//! read: materials, sections, nodes, members, tapers, supports and hinges. Loads stay with the problem file.
+//! read: materials, sections, nodes, members, tapers, supports, hinges, load cases, loads and combinations.
 
 mod converter;
+mod loads;
 mod sections;
+mod weight;
 
 use std::path::Path;
 
@@ -14,7 +16,7 @@ use crate::problem::structure::{Hinges, Structure};
 use crate::report::sheets::{self, Cell, Sheet};
 use crate::report::structure::Courses;
 use converter::Converter;
-use sections::sections;
+use sections::Shapes;
 
 /// The version of the format.
 const VERSION: &str = "2.2.0";
@@ -31,17 +33,19 @@ pub fn saf(subject: &Subject, solved: &Solved, out: &Path) -> Result<(), RunErro
     };
     let units = Converter(&solved.about.shown.system);
     let placed = placed(problem, structure, statics, x);
-    let sheets = vec![
-        project(&solved.about.title),
-        model(&solved.about.title),
-        materials(structure, &units)?,
-        sections(subject, x, structure, &units)?,
+    let shapes = Shapes::of(subject, x, structure)?;
+    let name = |member: u32| placed.members[member as usize].name.clone();
+    let [sections, outlines] = shapes.sheets(structure, &units)?;
+    let mut sheets = vec![project(&solved.about.title), model(&solved.about.title), materials(structure, &units)?, sections];
+    sheets.extend(Some(outlines).filter(|sheet| !sheet.rows.is_empty()));
+    sheets.extend([
         nodes(&placed, &units)?,
-        members(subject, structure, &placed, &units)?,
-        tapers(subject, structure),
+        members(subject, structure, &placed, &shapes, &units)?,
+        tapers(subject, structure, &shapes),
         supports(structure, &units)?,
         hinges(structure, &placed),
-    ];
+    ]);
+    sheets.extend(loads::sheets(structure, &name, &shapes, &units)?);
     let unwritable = |cause| RunError::Choice(format!("cannot write {}: {cause}", out.display()));
     whole::write(out, |file| sheets::write(&solved.about.title, &sheets, file)).map_err(unwritable)
 }
@@ -72,8 +76,16 @@ fn model(title: &str) -> Sheet {
 }
 
 fn materials(structure: &Structure, units: &Converter<'_>) -> Result<Sheet, RunError> {
-    let header =
-        ["Name", "Type", "Quality", "E modulus [MPa]", "G modulus [MPa]", "Poisson Coefficient", "Thermal expansion [1/K]"];
+    let header = [
+        "Name",
+        "Type",
+        "Quality",
+        "Unit mass [kg/m3]",
+        "E modulus [MPa]",
+        "G modulus [MPa]",
+        "Poisson Coefficient",
+        "Thermal expansion [1/K]",
+    ];
     let mut sheet = Sheet::new("StructuralMaterial", &header);
     for (number, material) in structure.materials.iter().enumerate() {
         let known = |name: &str| structure.material_number(number as u32, name).unwrap_or(f64::NAN);
@@ -84,6 +96,7 @@ fn materials(structure: &Structure, units: &Converter<'_>) -> Result<Sheet, RunE
             name.clone().into(),
             "Other".into(),
             name.into(),
+            weight::unit_mass(known("density"), structure, units)?.into(),
             young.into(),
             shear.into(),
             known("nu").into(),
@@ -127,9 +140,14 @@ const MEMBER: [&str; 18] = [
     "Behaviour in analysis",
 ];
 
-fn members(subject: &Subject, structure: &Structure, placed: &Courses, units: &Converter<'_>) -> Result<Sheet, RunError> {
+fn members(
+    subject: &Subject,
+    structure: &Structure,
+    placed: &Courses,
+    shapes: &Shapes<'_>,
+    units: &Converter<'_>,
+) -> Result<Sheet, RunError> {
     let mut sheet = Sheet::new("StructuralCurveMember", &MEMBER);
-    let sections = &subject.problem().sections.names;
     let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| a[axis] * b[axis]).sum::<f64>();
     for (member, place) in structure.members.iter().zip(&placed.members) {
         let (rib, ends) = (member.rib as usize, [member.start, member.end].map(|node| &placed.nodes[node as usize]));
@@ -139,14 +157,17 @@ fn members(subject: &Subject, structure: &Structure, placed: &Courses, units: &C
             let arm: [f64; 3] = std::array::from_fn(|axis| end[axis] - node.position[axis]);
             let [along, across, up] = place.axes.map(|axis| dot(arm, axis));
             if along.abs() > 1e-9 * dot(arm, arm).sqrt() {
-                let message =
-                    format!("no SAF file: rib `{}` has an arm along itself, for which the format has no word", place.name);
+                let message = format!(
+                    "no SAF file: rib `{}` has an arm along itself, for which the format has no word; give it a node where it ends, \
+                     joined to the other by a stiff rib",
+                    place.name
+                );
                 return Err(RunError::Choice(message));
             }
             arms.extend([units.to(across, "mm")?, units.to(up, "mm")?]);
         }
         let along: [f64; 3] = std::array::from_fn(|axis| place.ends[1][axis] - place.ends[0][axis]);
-        let mut row: Vec<Cell> = vec![place.name.as_str().into(), "General".into(), sections[from as usize].to_string().into()];
+        let mut row: Vec<Cell> = vec![place.name.as_str().into(), "General".into(), shapes.name(from, member.material).into()];
         row.push(if from == to { "" } else { place.name.as_str() }.into());
         row.extend([
             format!("{}; {}", ends[0].name, ends[1].name).into(),
@@ -164,18 +185,24 @@ fn members(subject: &Subject, structure: &Structure, placed: &Courses, units: &C
 }
 
 /// One taper per rib between two sections: it is linear, as ours is.
-fn tapers(subject: &Subject, structure: &Structure) -> Sheet {
+fn tapers(subject: &Subject, structure: &Structure, shapes: &Shapes<'_>) -> Sheet {
     let mut sheet = Sheet::new("StructuralCurveMemberVarying", &["Name", "Cross sections 1", "Span 1", "Alignment 1"]);
     let problem = subject.problem();
-    for rib in structure.members.iter().map(|member| member.rib as usize) {
+    for member in &structure.members {
+        let rib = member.rib as usize;
         let [from, to] = [problem.ribs.from[rib], problem.ribs.to[rib]];
         if from != to {
-            let [from, to] = [from, to].map(|section| &problem.sections.names[section as usize]);
+            let [from, to] = [from, to].map(|section| shapes.name(section, member.material));
             let pair = format!("{from}, {to}");
             sheet.rows.push(vec![problem.ribs.names[rib].to_string().into(), pair.into(), 1.0.into(), "Centre".into()]);
         }
     }
     sheet
+}
+
+/// What the support of a node is called.
+fn support_name(node: &str) -> String {
+    format!("S {node}")
 }
 
 fn supports(structure: &Structure, units: &Converter<'_>) -> Result<Sheet, RunError> {
@@ -185,7 +212,7 @@ fn supports(structure: &Structure, units: &Converter<'_>) -> Result<Sheet, RunEr
     sheet.header.extend(free.map(String::from).into_iter().chain(stiff.map(|unit| format!("Stiffness {unit}"))));
     for support in &structure.supports {
         let node = structure.nodes.names[support.node as usize].to_string();
-        let mut row: Vec<Cell> = vec![format!("S {node}").into(), "Custom".into(), "In node".into(), node.into()];
+        let mut row: Vec<Cell> = vec![support_name(&node).into(), "Custom".into(), "In node".into(), node.into()];
         for (at, there) in structure.plane.directions().into_iter().enumerate() {
             // What a plane structure cannot do is held where it stands in space.
             let word = match (support.fixed[at] || !there, support.springs[at] > 0.0) {

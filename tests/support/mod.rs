@@ -1,6 +1,8 @@
 //! What the comments of a problem file promise, and one solve of it.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod workbook;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
