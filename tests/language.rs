@@ -89,8 +89,7 @@ fn the_chain_is_the_problem_written_out() {
 
 #[test]
 fn the_rocket_is_the_problem_written_out() {
-    // Finer steps let the thrust swing where it is neither all nor nothing: a minimum, but none that is proved.
-    let text = example("rocket.toml", 12);
+    let text = example("rocket.toml", 20);
     let rows = |text: &str| {
         // Parts of arrays row by row.
         let mut out = String::new();
@@ -102,9 +101,9 @@ fn the_rocket_is_the_problem_written_out() {
         }
         out
     };
-    let value = same(&text, &written_out(&rows(&text), 12));
-    // Outcomes are of what is minimised: the height with its sign turned.
-    assert!((1.0..1.02).contains(&-value), "{value}");
+    let value = same(&text, &written_out(&rows(&text), 20));
+    // Outcomes are of what is minimised: the height with its sign turned. COPS: 1.01283 with many steps.
+    assert!((1.0127..1.01283).contains(&-value), "{value}");
 }
 
 #[test]

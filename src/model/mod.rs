@@ -25,6 +25,7 @@ pub mod relaxation;
 pub mod remainder;
 #[cfg(test)]
 pub(crate) mod sample;
+pub mod stated;
 pub mod states;
 pub mod stiffness;
 pub mod structural;

@@ -64,6 +64,7 @@ fn attempt(step: &Step, evaluator: &Evaluator<'_>, watch: &mut Watch<'_, '_>) ->
         let mut form = InequalityForm::new(evaluator, scales, &x);
         if step.algorithm.most_equalities.is_some() {
             form.keep_independent()?;
+            form.open_what_is_stated();
         }
         Ok(form)
     });

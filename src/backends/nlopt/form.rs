@@ -2,6 +2,7 @@
 
 use super::independent;
 use crate::math::within;
+use crate::model::stated::stated;
 use crate::model::views::scaled::{Scaled, Scales};
 use crate::model::{EvaluationError, Meta, Model};
 
@@ -72,6 +73,14 @@ impl<'a> InequalityForm<'a> {
         let mut at = 0..;
         self.equalities.retain(|_| at.next().is_some_and(|at| kept.binary_search(&at).is_ok()));
         Ok(())
+    }
+
+    /// Takes the bounds off variables whose value an equation states within them: SLSQP's subproblems lose their way where gradients of
+    /// an equation and of a bound depend on one another.
+    pub fn open_what_is_stated(&mut self) {
+        for at in stated(&self.scaled, &self.free, &self.template).iter().enumerate().filter_map(|(at, is)| is.then_some(at)) {
+            (self.lower[at], self.upper[at]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
     }
 
     /// Lower bounds of the free variables.

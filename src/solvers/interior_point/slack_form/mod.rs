@@ -1,7 +1,7 @@
 //! The form the interior point works on: min f(w) subject to g(w) = 0, l ≤ w ≤ u, scaled.
 //!
 //! w holds the variables that are not fixed, then one slack per inequality row; g is `c(x) − limit` for an equality and
-//! `c(x) − s` for an inequality. Rows without any limit and fixed variables are gone. Variables are scaled by powers of
+//! `c(x) − s` for an inequality. Rows without any limit and fixed variables are gone, and bounds of what an equation states. Variables are scaled by powers of
 //! two, so that bounds survive the way there and back bit for bit.
 
 mod evaluation;
@@ -10,6 +10,7 @@ mod selection;
 use super::parameters::PARAMETERS;
 use super::scaling;
 use crate::math::within;
+use crate::model::stated::stated;
 use crate::model::{Model, Pattern};
 use evaluation::Kept;
 use selection::{Entry, select_hessian, select_jacobian};
@@ -42,6 +43,8 @@ pub(super) struct SlackForm<'a> {
     pub rows: Vec<usize>,
     /// The slack (an index into w) of each row, none for an equality.
     pub slack: Vec<Option<usize>>,
+    /// Which variables of w an equation states: they have no bounds here.
+    stated: Vec<bool>,
     /// Bounds of w, scaled.
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
@@ -95,6 +98,7 @@ impl<'a> SlackForm<'a> {
             ease: 0.0,
             lower: Vec::new(),
             upper: Vec::new(),
+            stated: stated(&*model, &free, &x),
             free,
             rows,
             slack,
@@ -134,6 +138,9 @@ impl<'a> SlackForm<'a> {
         let meta = self.model.meta();
         let scaled = |limits: &[f64]| self.free.iter().zip(&self.variable_scale).map(|(&j, d)| limits[j] / d).collect();
         let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (scaled(&meta.lower), scaled(&meta.upper));
+        for at in (0..self.stated.len()).filter(|&at| self.stated[at]) {
+            (lower[at], upper[at]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
         for (i, _) in self.slack.iter().enumerate().filter(|(_, slack)| slack.is_some()) {
             let limits = [&meta.row_lower, &meta.row_upper].map(|limits| limits[self.rows[i]] * self.row_scale[i]);
             lower.push(limits[0] - eased(limits[0], self.ease));
