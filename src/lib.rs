@@ -40,6 +40,7 @@
 //! | room | what happens there |
 //! |---|---|
 //! | [`api`] | problems put together in Rust, answers by name |
+//! | `study` | many runs of one problem: points, chains, a table |
 //! | `run` | one run, start to finish |
 //! | `input` | the TOML file and its CSV tables become a checked `problem::Problem` |
 //! | `log`, `report` | iteration CSV; tables, JSON, terminal |
@@ -103,6 +104,8 @@ pub mod solvers;
 pub mod splines;
 #[doc(hidden)]
 pub mod structure;
+#[doc(hidden)]
+pub mod study;
 #[doc(hidden)]
 pub mod units;
 

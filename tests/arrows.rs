@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     &["main"],
     &["cli", "api"],
+    &["study"],
     &["run"],
     &["input", "report", "log"],
     &["crosscheck", "discrete"],
@@ -28,12 +29,12 @@ const SIDEWAYS: &[(&str, &str)] = &[("report", "log"), ("geometry", "splines")];
 const LIBRARIES: &[(&str, &[&str])] = &[
     ("nlopt", &["backends/nlopt"]),
     ("argmin", &["backends/argmin"]),
-    ("toml", &["input"]),
+    ("toml", &["input", "study"]),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("clap_mangen", &["cli"]),
     ("ctrlc", &["cli"]),
-    ("csv", &["input", "log", "report", "mesh"]),
+    ("csv", &["input", "log", "report", "mesh", "study"]),
     ("feral", &["linear_algebra"]),
     ("maud", &["report"]),
     ("rust_xlsxwriter", &["report"]),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use ribopt::input::{Input, Mistakes, read_watched};
+use ribopt::input::{Additions, Input, Mistakes, read_with};
 use ribopt::problem::mistake_code::MistakeCode;
 
 /// The fenced blocks of a part: what stands behind the fence, and the text.
@@ -21,7 +21,7 @@ fn read(tables: &[(&str, &str)], text: &str) -> Result<Input, Mistakes> {
     fs::write(&file, text).unwrap();
     let overrides: Vec<String> =
         text.lines().filter_map(|line| line.split_once("--set ")).map(|(_, set)| set.to_owned()).collect();
-    read_watched(&file, &overrides, &|_| {})
+    read_with(&file, &Additions::changing(&overrides), &|_| {})
 }
 
 /// What `ribopt explain` prints of a code.

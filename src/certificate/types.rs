@@ -28,6 +28,14 @@ pub enum Extent {
 }
 
 impl Extent {
+    /// The word of the result file.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Extent::Global => "global",
+            Extent::Local => "local",
+        }
+    }
+
     /// What a class proves.
     pub fn of(class: Class) -> Extent {
         if class.is_global() { Extent::Global } else { Extent::Local }

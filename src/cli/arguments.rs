@@ -1,6 +1,7 @@
 //! What can be typed.
 
 mod examples;
+mod sweep;
 mod values;
 
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::mesh::Stage;
+pub use sweep::Sweep;
 use examples::{BEGINNING, EXAMPLES, EXIT_CODES, SECTION_EXAMPLES};
 use values::{backend_names, seconds, tolerance};
 
@@ -41,6 +43,8 @@ pub enum Command {
     Analyse(Analyse),
     /// The certificate for a point found elsewhere
     Verify(Verify),
+    /// Many runs of one problem: spans, loads, limits, trade-offs; on all cores, or on a cluster
+    Sweep(Sweep),
     /// One HTML page about a run or several, from the files they left: verdict, what governs, utilisation, sizes, pictures, input
     Report {
         /// The folders of runs, or their result.json

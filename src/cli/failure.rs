@@ -8,6 +8,7 @@ use super::output;
 use ribopt::mesh::commands::CommandError;
 use ribopt::report::result::{Mistake, write_mistakes};
 use ribopt::run::RunError;
+use ribopt::study::StudyError;
 
 /// The exit code of a wrong command line or problem file.
 const EXIT_WRONG: u8 = 2;
@@ -24,12 +25,24 @@ pub enum Failure {
     /// A stage of the mesh could not be done.
     #[error(transparent)]
     Mesh(#[from] CommandError),
+    /// A study could not be worked on.
+    #[error(transparent)]
+    Study(StudyError),
     /// Standard output cannot be written to.
     #[error("cannot write to standard output: {0}; make room there or send it elsewhere")]
     Output(io::Error),
     /// Anything else that was asked for and cannot be.
     #[error("{0}")]
     Request(String),
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Run(error) => Failure::Run(error),
+            other => Failure::Study(other),
+        }
+    }
 }
 
 impl Failure {

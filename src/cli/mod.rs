@@ -11,10 +11,12 @@ mod live_table;
 mod manual;
 mod mesh;
 mod output;
+mod progress;
 mod reading;
 mod reference;
 mod section;
 mod solve;
+mod sweep;
 mod units;
 mod verify;
 
@@ -48,6 +50,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Check(arguments) => check::run(&arguments),
         Command::Analyse(arguments) => analyse::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Report { results, output } => reference::page(&results, output.as_deref()),
         Command::Section(arguments) => section::run(&arguments),
         Command::New { kind } => reference::example(kind.as_deref()),

@@ -209,3 +209,21 @@ pub(super) struct ConstraintEntry {
     pub cases: Vec<Written>,
     pub require: Option<Written>,
 }
+
+impl ConstraintEntry {
+    /// A requirement that is stated once.
+    pub fn once(name: Name, require: Written) -> ConstraintEntry {
+        ConstraintEntry {
+            place: name.place,
+            name: Some(name),
+            repeated: None,
+            index: None,
+            only: Vec::new(),
+            kind: None,
+            filter: None,
+            by: None,
+            cases: Vec::new(),
+            require: Some(require),
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::additions::Argument;
 use super::mistake::{Mistake, Mistakes, SHOWN};
 use super::source::{Place, Source};
 use super::table_lines;
@@ -66,14 +67,14 @@ impl Findings {
     }
 
     /// The mistakes with their lines, in the order in which they stand.
-    pub fn into_parts(self, source: &Source, arguments: &[String]) -> (Mistakes, Vec<Mistake>) {
+    pub fn into_parts(self, source: &Source, arguments: &[Argument<'_>]) -> (Mistakes, Vec<Mistake>) {
         let (list, cut) = self.placed(self.mistakes.iter().collect(), source, arguments);
         let (warnings, _) = self.placed(self.warnings.iter().collect(), source, arguments);
         (Mistakes { list, more: cut + self.uncounted }, warnings)
     }
 
     /// The first of the findings in the file's order, each once, and how many are left out.
-    fn placed(&self, mut findings: Vec<&Finding>, source: &Source, arguments: &[String]) -> (Vec<Mistake>, usize) {
+    fn placed(&self, mut findings: Vec<&Finding>, source: &Source, arguments: &[Argument<'_>]) -> (Vec<Mistake>, usize) {
         findings.sort_by_key(|finding| finding.place);
         findings.dedup_by(|a, b| a.place == b.place && a.message == b.message);
         let cut = findings.len().saturating_sub(SHOWN);
@@ -90,13 +91,13 @@ impl Findings {
         (findings.iter().map(|finding| self.place(finding, source, arguments, &rows)).collect(), cut)
     }
 
-    fn place(&self, finding: &Finding, source: &Source, arguments: &[String], rows: &[table_lines::Lines]) -> Mistake {
+    fn place(&self, finding: &Finding, source: &Source, arguments: &[Argument<'_>], rows: &[table_lines::Lines]) -> Mistake {
         let (code, message, help) = (finding.code, finding.message.clone(), finding.help.clone());
         match finding.place {
             Place::File { start, end } => source.mistake(code, start as usize..end as usize, message, help),
             Place::Argument { number, start, end } => {
-                let text = arguments.get(number as usize).cloned().unwrap_or_default();
-                let argument = Source::new("--set", text);
+                let of = arguments.get(number as usize);
+                let argument = Source::new(of.map_or("", |of| of.origin), of.map_or("", |of| of.text).to_owned());
                 argument.mistake(code, start as usize..end as usize, message, help)
             }
             Place::Row { table, line, field } => {

@@ -3,9 +3,11 @@
 //! Path → text (`load`) → tables of fields with places (`fields`) → the file as declared (`declaration`) → names
 //! looked up and numbers computed (`check`). Mistakes are collected on the way and shown in one go.
 
+mod additions;
 mod check;
 mod codes;
 mod declaration;
+mod document;
 mod example;
 mod explain;
 mod fields;
@@ -26,7 +28,9 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 use crate::problem::Problem;
+pub use additions::Additions;
 pub use check::{Dimensions, Measured};
+pub use document::Document;
 pub use example::{example, examples};
 pub use explain::explain;
 use fields::Reader;
@@ -50,6 +54,8 @@ pub struct Input {
     pub files: Vec<PathBuf>,
     /// What its numbers measure.
     pub dimensions: Dimensions,
+    /// The numbers of [`Additions::constants`].
+    pub constants: Vec<f64>,
 }
 
 /// Reads a problem file and its tables.
@@ -67,7 +73,7 @@ pub struct Input {
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn read(path: &Path) -> Result<Input, Mistakes> {
-    read_watched(path, &[], &|_| {})
+    read_with(path, &Additions::default(), &|_| {})
 }
 
 /// How far the reading of a table has come.
@@ -81,15 +87,14 @@ pub struct Progress<'a> {
     pub size: u64,
 }
 
-/// [`read`] with some of the file's numbers replaced, as by `--set`: `NAME.lower=VALUE`, `NAME.upper=VALUE`, `NAME.start=VALUE` for a
-/// variable (`depth`, `x`, `x[2]`, `support.b`), `NAME=VALUE` for a parameter. Calls `watch` every now and then while tables are read.
+/// [`read`] with additions to the file. Calls `watch` every now and then while tables are read.
 ///
 /// # Errors
-/// Every mistake of the file, its tables and the overrides.
-pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Input, Mistakes> {
+/// Every mistake of the file, its tables and the additions.
+pub fn read_with(path: &Path, additions: &Additions, watch: &dyn Fn(Progress<'_>)) -> Result<Input, Mistakes> {
     let (source, bytes) = load::load(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut input = understand(&source, &bytes, folder, overrides, watch)?;
+    let mut input = understand(&source, &bytes, folder, additions, watch)?;
     input.files.insert(0, path.to_path_buf());
     Ok(input)
 }
@@ -100,14 +105,14 @@ pub fn read_watched(path: &Path, overrides: &[String], watch: &dyn Fn(Progress<'
 /// Every mistake of the text and its tables.
 pub fn read_text(name: &str, text: &str) -> Result<Input, Mistakes> {
     let source = Source::new(name.to_owned(), text.to_owned());
-    understand(&source, text.as_bytes(), Path::new(""), &[], &|_| {})
+    understand(&source, text.as_bytes(), Path::new(""), &Additions::default(), &|_| {})
 }
 
 fn understand(
     source: &Source,
     bytes: &[u8],
     folder: &Path,
-    overrides: &[String],
+    additions: &Additions,
     watch: &dyn Fn(Progress<'_>),
 ) -> Result<Input, Mistakes> {
     let mut checksum = Sha256::new();
@@ -115,23 +120,26 @@ fn understand(
     let mut findings = Findings::default();
     let (document, errors) = DeTable::parse_recoverable(&source.text);
     let mut reader = Reader::new(source, &mut findings);
-    let declared = parse_tables::parse_tables(document.get_ref(), &mut reader);
+    let mut declared = parse_tables::parse_tables(document.get_ref(), &mut reader);
     let units = reader.units;
+    additions.declare(&mut declared);
+    let arguments = additions.arguments();
     if !errors.is_empty() {
         syntax(source, &errors, &mut findings);
-        return Err(findings.into_parts(source, overrides).0);
+        return Err(findings.into_parts(source, &arguments).0);
     }
     let mut tables = Tables { folder, units: &units, checksum: &mut checksum, watch };
-    let (mut problem, findings, dimensions) = check::check(declared, source, findings, overrides, &mut tables);
+    let check::Checked { mut problem, findings, dimensions, constants } =
+        check::check(declared, source, findings, additions, &mut tables);
     let clean = findings.clean();
     let files = findings.tables.iter().map(|(path, _)| path.clone()).collect();
-    let (mistakes, warnings) = findings.into_parts(source, overrides);
+    let (mistakes, warnings) = findings.into_parts(source, &arguments);
     if !clean {
         return Err(mistakes);
     }
     problem.warnings = warnings.iter().map(one_line).collect();
     let sha256 = checksum.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok(Input { problem, sha256, warnings, files, dimensions })
+    Ok(Input { problem, sha256, warnings, files, dimensions, constants })
 }
 
 /// Mistakes of the TOML itself. What the walk found on the same lines is only their consequence.

@@ -94,6 +94,18 @@ pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Resu
     Ok(analysis)
 }
 
+/// All definitions and their values at x.
+///
+/// # Errors
+/// A term that is too dense; a definition without a value.
+pub fn definitions(subject: &Subject, x: &[f64]) -> Result<Vec<(String, f64)>, AnalysisError> {
+    let problem = subject.problem();
+    let assembled = of_definitions(problem)?;
+    let mut values = vec![0.0; assembled.model().meta().rows()];
+    assembled.model().constraints(x, &mut values)?;
+    Ok(problem.definitions.iter().zip(values).map(|((name, _), value)| (name.clone(), value)).collect())
+}
+
 /// Variables outside their bounds, and a structure on which nothing acts.
 fn remarks(subject: &Subject, x: &[f64]) -> Vec<String> {
     let (model, mut remarks) = (subject.shown(), Vec::new());

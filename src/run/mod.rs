@@ -45,6 +45,7 @@ pub use choice::Choice;
 pub use subject::Subject;
 
 use crate::backends::Iteration;
+use crate::input;
 use crate::report::answer::AnswerError;
 use crate::report::result::Mistake;
 use folder::FolderError;
@@ -92,6 +93,13 @@ pub enum RunError {
     /// No such backend or algorithm, or none that takes the problem.
     #[error("{0}")]
     Choice(String),
+}
+
+impl From<input::Mistakes> for RunError {
+    fn from(mistakes: input::Mistakes) -> Self {
+        let list = mistakes.list.iter().map(subject::reported).collect();
+        RunError::Input(mistakes.to_string(), list)
+    }
 }
 
 impl RunError {

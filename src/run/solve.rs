@@ -150,6 +150,32 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), judged, place, _locked: locked, about })
 }
 
+/// What a run without files is given besides the problem.
+pub struct Quiet<'a> {
+    /// Backends and algorithms.
+    pub choices: &'a [Choice],
+    /// Tolerances and limits.
+    pub settings: &'a Settings,
+    /// Where to begin, in the user's variables: the file's start where there is none.
+    pub start: Option<Vec<f64>>,
+    /// Row multipliers there, of the minimised form.
+    pub start_multipliers: Option<&'a [f64]>,
+    /// Starting points; 0 or 1: one.
+    pub starts: usize,
+    /// Set by Ctrl-C.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+/// What a run without files found.
+pub struct Found {
+    /// The verdict.
+    pub outcome: Outcome,
+    /// Sections and the rows of catalogues that were chosen for them, bars that vanished, and what else happened on the way.
+    pub about: About,
+    /// The problem that the point was judged in, where that is not the user's.
+    pub judged: Option<Subject>,
+}
+
 /// Solves without leaving files: every backend of the settings, or all that are built in.
 ///
 /// # Errors
@@ -163,13 +189,26 @@ pub fn outcome(subject: &Subject) -> Result<Outcome, RunError> {
 /// # Errors
 /// None of them takes the problem.
 pub fn outcome_by(subject: &Subject, choices: &[Choice], settings: &Settings) -> Result<Outcome, RunError> {
+    let quiet = Quiet { choices, settings, start: None, start_multipliers: None, starts: 1, interrupt: None };
+    quietly(subject, &quiet).map(|found| found.outcome)
+}
+
+/// Solves without leaving files.
+///
+/// # Errors
+/// A mechanism; no backend takes the problem.
+pub fn quietly(subject: &Subject, quiet: &Quiet<'_>) -> Result<Found, RunError> {
+    let &Quiet { choices, settings, start_multipliers, starts, interrupt, .. } = quiet;
     let remaining = Remaining::new();
-    let task = Task { settings, ..subject.task(&subject.model().meta().start, None) };
+    subject.refuse_mechanism()?;
+    let start = quiet.start.clone().map_or_else(|| subject.model().meta().start.clone(), |x| subject.completed(x));
+    let task = Task { settings, start_multipliers, starts, ..subject.task(&start, interrupt) };
     refuse_if_none_accepts(choices, &task)?;
-    let further = Further { choices, settings, remaining: &remaining, interrupt: None };
+    let further = Further { choices, settings, remaining: &remaining, interrupt };
     let (mut outcome, judged) = further.judged(subject, &task, |task| unobserved(task, choices));
-    followed_up(subject, (&mut outcome, judged), &mut About::default(), &further);
-    Ok(outcome)
+    let mut about = subject.about.clone();
+    let judged = followed_up(subject, (&mut outcome, judged), &mut about, &further);
+    Ok(Found { outcome, about, judged })
 }
 
 /// What follows an outcome and the problem it is of: sizes chosen from lists, bounds; the problem it is of then.

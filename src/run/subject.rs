@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::{RunError, plausible};
 use crate::crosscheck::Task;
 use crate::files::Inputs;
-use crate::input::{self, Dimensions, Progress};
+use crate::input::{self, Additions, Dimensions, Progress};
 use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
@@ -29,6 +29,8 @@ pub struct Subject {
     pub dimensions: Dimensions,
     /// What the reader wants said, with lines and carets; [`About::warnings`] has the same in one line each.
     pub warnings: Vec<String>,
+    /// The numbers of the additions' constants.
+    pub constants: Vec<f64>,
     formulation: Formulation,
 }
 
@@ -46,12 +48,21 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the changes.
     pub fn read_watched(file: &Path, changes: &[String], watch: &dyn Fn(Progress<'_>)) -> Result<Subject, RunError> {
-        let input = input::read_watched(file, changes, watch).map_err(refused)?;
+        Subject::read_with(file, &Additions::changing(changes), watch)
+    }
+
+    /// [`Subject::read_watched`] with other additions besides.
+    ///
+    /// # Errors
+    /// All mistakes of the file, its tables and the additions.
+    pub fn read_with(file: &Path, additions: &Additions, watch: &dyn Fn(Progress<'_>)) -> Result<Subject, RunError> {
+        let input = input::read_with(file, additions, watch)?;
         let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
         subject.inputs = Inputs::new(input.files);
         subject.about.shown = input.dimensions.shown.clone();
         subject.dimensions = input.dimensions;
-        subject.about.changes = changes.to_vec();
+        subject.about.changes = additions.changes.clone();
+        subject.constants = input.constants;
         let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
         Ok(subject)
@@ -62,7 +73,7 @@ impl Subject {
     /// # Errors
     /// All mistakes of the text.
     pub fn of_text(name: &str, text: &str) -> Result<Subject, RunError> {
-        let input = input::read_text(name, text).map_err(refused)?;
+        let input = input::read_text(name, text)?;
         let mut subject = Subject::assemble(input.problem, Path::new(name), input.sha256)?;
         subject.inputs = Inputs::new(input.files);
         subject.about.shown = input.dimensions.shown.clone();
@@ -100,7 +111,7 @@ impl Subject {
         };
         let settings = problem.settings.clone();
         let (inputs, dimensions) = (Inputs::new([file.into()]), Dimensions::default());
-        Ok(Subject { about, settings, inputs, dimensions, warnings: Vec::new(), formulation })
+        Ok(Subject { about, settings, inputs, dimensions, warnings: Vec::new(), constants: Vec::new(), formulation })
     }
 
     /// The same file's problem after a change, with all that was said and set.
@@ -114,6 +125,7 @@ impl Subject {
             inputs: self.inputs.clone(),
             dimensions: self.dimensions.clone(),
             warnings: Vec::new(),
+            constants: Vec::new(),
             formulation: formulate(problem)?,
         })
     }
@@ -235,13 +247,8 @@ impl Subject {
     }
 }
 
-fn refused(mistakes: input::Mistakes) -> RunError {
-    let list = mistakes.list.iter().map(reported).collect();
-    RunError::Input(mistakes.to_string(), list)
-}
-
 /// A mistake of the reader as reports show it.
-fn reported(mistake: &input::Mistake) -> Mistake {
+pub(super) fn reported(mistake: &input::Mistake) -> Mistake {
     let place = |number: usize| (number > 0).then_some(number);
     Mistake {
         code: mistake.code.map(MistakeCode::name),

@@ -26,6 +26,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::additions::Additions;
 use super::declaration::{Declaration, Name};
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
@@ -100,20 +101,30 @@ struct Without {
     table: bool,
 }
 
+/// What the check brings.
+pub(super) struct Checked {
+    pub problem: Problem,
+    pub findings: Findings,
+    pub dimensions: Dimensions,
+    /// The numbers of the additions' constants.
+    pub constants: Vec<f64>,
+}
+
 /// Puts the problem together, reading the tables on the way.
 pub(super) fn check(
     mut declared: Declaration,
     source: &Source,
     findings: Findings,
-    arguments: &[String],
+    additions: &Additions,
     tables: &mut Tables<'_>,
-) -> (Problem, Findings, Dimensions) {
+) -> Checked {
     let mut assembly = Assembly::new(source, findings);
     assembly.units = tables.units.clone();
     assembly.quantities = !declared.measured.is_empty();
-    let overrides = assembly.overrides(arguments);
+    let overrides = assembly.overrides(&additions.changes);
     assembly.declare_names(&declared);
     assembly.parameters(&declared, &overrides);
+    let constants = additions.constants().iter().filter_map(|scalar| assembly.constant(scalar)).collect();
     assembly.variables(&declared.variables);
     assembly.profiles(&declared);
     assembly.read_catalogues(&declared.catalogues, tables);
@@ -124,7 +135,8 @@ pub(super) fn check(
     if assembly.without.table {
         // Names and properties would be missed that only the table could have given: nothing but grammar is looked at.
         assembly.grammar(&declared);
-        return (assembly.problem, assembly.findings, Dimensions::default());
+        let dimensions = Dimensions::default();
+        return Checked { problem: assembly.problem, findings: assembly.findings, dimensions, constants };
     }
     assembly.apply(&overrides);
     assembly.lists();
@@ -145,7 +157,7 @@ pub(super) fn check(
         assembly.problem.prepare();
         modes::follow(&mut assembly.problem);
     }
-    (assembly.problem, assembly.findings, dimensions)
+    Checked { problem: assembly.problem, findings: assembly.findings, dimensions, constants }
 }
 
 /// The file's stem; of a `problem.toml`, the name of its folder.

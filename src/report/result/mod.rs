@@ -17,7 +17,7 @@ use super::{Findings, Volumes};
 use conflict::ConflictPart;
 pub use mistakes::{Mistake, write_mistakes};
 use point::{BoundsPart, ConstraintsPart, NamedValues, RibsPart};
-use solutions::{AgreementPart, MinimaPart, SolutionsPart, scope};
+use solutions::{AgreementPart, MinimaPart, SolutionsPart};
 
 /// The `format` of the file.
 pub const FORMAT: &str = "ribopt-result/1";
@@ -76,7 +76,7 @@ impl Head<'_> {
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
         map.serialize_entry("problem", &ProblemPart::of(findings))?;
         map.serialize_entry("status", outcome.status.as_str())?;
-        map.serialize_entry("scope", scope(outcome.scope))?;
+        map.serialize_entry("scope", outcome.scope.as_str())?;
         map.serialize_entry("message", &outcome.message)?;
         map.serialize_entry("remedy", &outcome.remedy)?;
         map.serialize_entry("objective", &findings.objective())?;

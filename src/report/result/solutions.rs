@@ -5,7 +5,6 @@ use serde::{Serialize, Serializer};
 use super::super::Findings;
 use super::point::NamedValues;
 use crate::backends::Termination;
-use crate::certificate::Extent;
 use crate::crosscheck::{Agreement, Answer};
 
 /// The word for why a run stopped.
@@ -16,14 +15,6 @@ fn termination(termination: Termination) -> &'static str {
         Termination::Interrupted => "interrupted",
         Termination::Failed => "failed",
         Termination::Refused => "refused",
-    }
-}
-
-/// The word for how far a certificate reaches.
-pub(super) fn scope(scope: Extent) -> &'static str {
-    match scope {
-        Extent::Global => "global",
-        Extent::Local => "local",
     }
 }
 
@@ -76,7 +67,7 @@ impl<'a> SolutionPart<'a> {
             seconds: solution.seconds,
             certificate: answer.certificate.as_ref().map(|certificate| CertificatePart {
                 certified: certificate.certified,
-                scope: scope(certificate.scope),
+                scope: certificate.scope.as_str(),
                 primal_infeasibility: certificate.primal_infeasibility,
                 dual_infeasibility: certificate.dual_infeasibility,
                 complementarity: certificate.complementarity,
