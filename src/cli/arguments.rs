@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::mesh::Stage;
-pub use sweep::Sweep;
 use examples::{BEGINNING, EXAMPLES, EXIT_CODES, SECTION_EXAMPLES};
+pub use sweep::Sweep;
 use values::{backend_names, seconds, tolerance};
 
 /// What `--version` says: the features this program was built with.

@@ -109,7 +109,8 @@ fn told(arguments: &Sweep, study: &Study, store: &Store, merge: bool) -> Result<
             let counts = if counts.is_empty() { "nothing is finished yet".into() } else { counts.join(", ") };
             writeln!(out, "{}: {}: {counts}", study.title, count(summary.points, "point"))?;
             if table.missing > 0 {
-                let claimed = if summary.claimed > 0 { format!("; {} at work", count(summary.claimed, "chain")) } else { String::new() };
+                let claimed =
+                    if summary.claimed > 0 { format!("; {} at work", count(summary.claimed, "chain")) } else { String::new() };
                 writeln!(out, "{} missing{claimed}", table.missing)?;
             }
             if merge { writeln!(out, "table: {}", place.display()) } else { Ok(()) }

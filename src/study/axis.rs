@@ -77,8 +77,7 @@ pub(super) fn read(
     };
     let from = axis.from.as_ref().map(|given| number(given, mistakes));
     let to = axis.to.as_ref().map(|given| number(given, mistakes));
-    let values: Option<Vec<f64>> =
-        axis.values.as_ref().map(|list| list.iter().map(|given| number(given, mistakes)).collect());
+    let values: Option<Vec<f64>> = axis.values.as_ref().map(|list| list.iter().map(|given| number(given, mistakes)).collect());
     match (from, to, values) {
         (None, None, Some(values)) => {
             if values.is_empty() {

@@ -88,7 +88,8 @@ impl Layout {
             Layout::Points(_) => Vec::new(),
             Layout::Front(front) => {
                 let both = OBJECTIVES.iter().zip(COLUMNS).zip(&front.objectives);
-                both.map(|((name, column), text)| Quantity { column: column.into(), name: (*name).into(), text: text.clone() }).collect()
+                both.map(|((name, column), text)| Quantity { column: column.into(), name: (*name).into(), text: text.clone() })
+                    .collect()
             }
         }
     }

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use super::{OnFailure, Point, Row, Study, StudyError, sensitivity};
 use crate::crosscheck::{Outcome, Status};
-use crate::report::governing::Governing;
 use crate::report::Findings;
+use crate::report::governing::Governing;
 use crate::run::solve::{Found, Quiet, quietly};
 use crate::run::{RunError, Subject, analyse, choice};
 
@@ -63,11 +63,12 @@ pub(super) fn solve(
     }
     let row = row(study, point, &subject, &ran);
     let outcome = &ran.found.outcome;
-    let next = (ran.found.judged.is_none() && outcome.objective.is_some() && outcome.status != Status::Infeasible).then(|| Warm {
-        names,
-        x: outcome.x.clone(),
-        multipliers: outcome.certificate.as_ref().map(|certificate| certificate.row_multipliers.clone()),
-    });
+    let next =
+        (ran.found.judged.is_none() && outcome.objective.is_some() && outcome.status != Status::Infeasible).then(|| Warm {
+            names,
+            x: outcome.x.clone(),
+            multipliers: outcome.certificate.as_ref().map(|certificate| certificate.row_multipliers.clone()),
+        });
     Ok(Some((Row { seconds: begun.elapsed().as_secs_f64(), ..row }, next)))
 }
 

@@ -37,7 +37,8 @@ pub(super) fn read(path: &Path) -> Result<List, String> {
     let file = files::open(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(file);
     let wrong = |error: csv::Error| format!("{}: {error}", path.display());
-    let names: Vec<String> = reader.headers().map_err(wrong)?.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
+    let names: Vec<String> =
+        reader.headers().map_err(wrong)?.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
     if names.iter().any(String::is_empty) {
         return Err(format!("{}: a column has no name; the first line names what is varied", path.display()));
     }

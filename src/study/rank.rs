@@ -28,7 +28,8 @@ impl Share {
     pub fn parse(text: &str) -> Result<Share, String> {
         let wrong = || format!("`{text}` is no share: as in 3/64, the third of 64");
         let (index, count) = text.split_once('/').ok_or_else(wrong)?;
-        let (index, count): (usize, usize) = (index.trim().parse().map_err(|_| wrong())?, count.trim().parse().map_err(|_| wrong())?);
+        let (index, count): (usize, usize) =
+            (index.trim().parse().map_err(|_| wrong())?, count.trim().parse().map_err(|_| wrong())?);
         if (1..=count).contains(&index) { Ok(Share { index: index - 1, count }) } else { Err(wrong()) }
     }
 

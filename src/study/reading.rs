@@ -97,9 +97,8 @@ fn axes(problem: &Path, declared: &Declaration, mistakes: &mut Mistakes<'_>) -> 
     let texts: Vec<(String, Range<usize>)> = entries.iter().flat_map(|(_, axis)| axis::texts(axis)).collect();
     let mut computed = computed(problem, texts.into_iter().map(|(text, _)| text).collect())?.into_iter();
     let method = declared.design.method;
-    let read = entries
-        .iter()
-        .map(|(name, entry)| axis::read((name.get_ref(), name.span()), entry, method, &mut computed, mistakes));
+    let read =
+        entries.iter().map(|(name, entry)| axis::read((name.get_ref(), name.span()), entry, method, &mut computed, mistakes));
     Ok(read.collect())
 }
 

@@ -13,7 +13,16 @@ pub fn retry(study: &Study, store: &Store, statuses: &[String]) -> Result<(), St
         return Ok(());
     }
     const WORDS: [&str; 11] = [
-        "failed", "limit", "certified", "uncertified", "infeasible", "unbounded", "not-attained", "limit-reached", "invalid-value", "mistake",
+        "failed",
+        "limit",
+        "certified",
+        "uncertified",
+        "infeasible",
+        "unbounded",
+        "not-attained",
+        "limit-reached",
+        "invalid-value",
+        "mistake",
         "crashed",
     ];
     if let Some(unknown) = statuses.iter().find(|status| !WORDS.contains(&status.as_str())) {
@@ -27,7 +36,9 @@ pub fn retry(study: &Study, store: &Store, statuses: &[String]) -> Result<(), St
         })
     };
     let undo: Vec<usize> = match &study.layout {
-        Layout::Points(points) => (0..points.chains.len()).filter(|&chain| store.rows(chain).is_some_and(|rows| rows.iter().any(is_wanted))).collect(),
+        Layout::Points(points) => {
+            (0..points.chains.len()).filter(|&chain| store.rows(chain).is_some_and(|rows| rows.iter().any(is_wanted))).collect()
+        }
         Layout::Front(_) => Table::of(study, store).rows.iter().filter(|row| is_wanted(row)).map(|row| row.point).collect(),
     };
     undo.into_iter().try_for_each(|chain| Ok(store.undo(chain)?))

@@ -18,17 +18,13 @@ pub(super) fn all(study: &Study, point: &Point, subject: &Subject, findings: &Fi
     names.iter().enumerate().map(|(axis, name)| of_name(study, point, (axis, name), subject, findings)).collect()
 }
 
-fn of_name(
-    study: &Study,
-    point: &Point,
-    (axis, name): (usize, &str),
-    subject: &Subject,
-    findings: &Findings<'_>,
-) -> Option<f64> {
+fn of_name(study: &Study, point: &Point, (axis, name): (usize, &str), subject: &Subject, findings: &Findings<'_>) -> Option<f64> {
     if study.objectives().is_some() {
         return by_limit(point, findings);
     }
-    by_bound(name, findings).or_else(|| by_difference(study, point, (axis, name), subject, findings)).and_then(|value| finite(Some(value)))
+    by_bound(name, findings)
+        .or_else(|| by_difference(study, point, (axis, name), subject, findings))
+        .and_then(|value| finite(Some(value)))
 }
 
 /// Of a front: its limit is the last row.

@@ -21,27 +21,35 @@ pub struct Submission {
 /// # Errors
 /// No `sbatch`, or its own words.
 pub fn submit(study: &Path, folder: &Path, shards: usize, others: &[String]) -> Result<Submission, StudyError> {
-    let program = std::env::current_exe()
-        .map_err(|error| StudyError::Request(format!("this program's own path is not known: {error}")))?;
+    let program =
+        std::env::current_exe().map_err(|error| StudyError::Request(format!("this program's own path is not known: {error}")))?;
     let (study, folder) = (absolute(study)?, absolute(folder)?);
     let [program, file, out] = [&program, &study, &folder].map(|path| quoted(&path.to_string_lossy()));
     let command = |last: &str| format!("{program} sweep {file} --out {out} {last}");
     let name = format!("ribopt {}", study.file_stem().unwrap_or_default().to_string_lossy());
     let log = folder.join("slurm-%A_%a.log");
-    let array = sbatch(&[
-        "--job-name".into(),
-        name.clone().into(),
-        format!("--array=0-{}", shards.saturating_sub(1)).into(),
-        "--output".into(),
-        log.into(),
-    ], others, &command("--worker --quiet"))?;
-    let merge = sbatch(&[
-        "--job-name".into(),
-        format!("{name} merge").into(),
-        format!("--dependency=afterany:{array}").into(),
-        "--output".into(),
-        folder.join("slurm-merge-%j.log").into(),
-    ], others, &command("--merge"))?;
+    let array = sbatch(
+        &[
+            "--job-name".into(),
+            name.clone().into(),
+            format!("--array=0-{}", shards.saturating_sub(1)).into(),
+            "--output".into(),
+            log.into(),
+        ],
+        others,
+        &command("--worker --quiet"),
+    )?;
+    let merge = sbatch(
+        &[
+            "--job-name".into(),
+            format!("{name} merge").into(),
+            format!("--dependency=afterany:{array}").into(),
+            "--output".into(),
+            folder.join("slurm-merge-%j.log").into(),
+        ],
+        others,
+        &command("--merge"),
+    )?;
     Ok(Submission { array, merge })
 }
 
@@ -59,7 +67,8 @@ fn sbatch(arguments: &[OsString], others: &[String], command: &str) -> Result<St
     let output = Command::new("sbatch").arg("--parsable").args(arguments).args(others).arg("--wrap").arg(command).output();
     let output = output.map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => StudyError::Request(
-            "there is no `sbatch` here: run this where Slurm is, or let workers run by hand: ribopt sweep STUDY --shard 1/4".into(),
+            "there is no `sbatch` here: run this where Slurm is, or let workers run by hand: ribopt sweep STUDY --shard 1/4"
+                .into(),
         ),
         _ => StudyError::Request(format!("sbatch cannot be run: {error}")),
     })?;

@@ -9,8 +9,21 @@ use crate::report::number::push_exact;
 
 /// Columns every table has, before and after those of the study.
 pub(super) const COLUMNS: [&str; 15] = [
-    "point", "status", "scope", "exit", "objective", "lower_bound", "volume", "governs", "start", "iterations", "seconds", "message",
-    "limit", "first", "second",
+    "point",
+    "status",
+    "scope",
+    "exit",
+    "objective",
+    "lower_bound",
+    "volume",
+    "governs",
+    "start",
+    "iterations",
+    "seconds",
+    "message",
+    "limit",
+    "first",
+    "second",
 ];
 
 /// What governs, in one cell.
@@ -67,8 +80,7 @@ impl Table {
     pub fn write(&self, study: &Study, out: &mut dyn Write) -> io::Result<()> {
         let names = study.names();
         // A variable that is varied is fixed there: it has its column already.
-        let shown: Vec<usize> =
-            (0..study.variables.len()).filter(|&j| !names.contains(&study.variables[j].as_str())).collect();
+        let shown: Vec<usize> = (0..study.variables.len()).filter(|&j| !names.contains(&study.variables[j].as_str())).collect();
         let mut writer = csv::Writer::from_writer(out);
         let mut header: Vec<String> = vec!["point".into()];
         header.extend(names.iter().map(|name| (*name).to_owned()));
@@ -92,7 +104,11 @@ fn record(row: &Row, names: usize, quantities: usize, shown: &[usize]) -> Vec<St
         (0..count).map(|at| number(values.get(at).copied().flatten())).collect()
     };
     cells.extend(list(&row.varied, names));
-    cells.extend([row.status.clone(), row.scope.clone().unwrap_or_default(), row.exit.map_or(String::new(), |code| code.to_string())]);
+    cells.extend([
+        row.status.clone(),
+        row.scope.clone().unwrap_or_default(),
+        row.exit.map_or(String::new(), |code| code.to_string()),
+    ]);
     cells.extend([row.objective, row.lower_bound, row.volume].map(number));
     cells.extend(list(&row.quantities, quantities));
     cells.extend(shown.iter().map(|&j| number(row.variables.get(j).copied().flatten())));

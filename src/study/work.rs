@@ -134,7 +134,9 @@ impl Round<'_> {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads((cores / jobs).max(1)).stack_size(STACK).build();
                 let result = match pool {
                     Ok(pool) => pool.install(|| self.worker(&next)),
-                    Err(error) => Err(StudyError::Request(format!("no further thread can be started: {error}; try fewer --jobs"))),
+                    Err(error) => {
+                        Err(StudyError::Request(format!("no further thread can be started: {error}; try fewer --jobs")))
+                    }
                 };
                 if result.is_err() {
                     self.ended.store(true, Ordering::Relaxed);

@@ -108,6 +108,18 @@ impl Panel {
         self.drawn(canvas, x_name, y_name, |value| significant(value, 3));
     }
 
+    /// Grid, ticks and name of the horizontal axis alone.
+    pub fn draw_along(&self, canvas: &mut Canvas, x_name: &str) {
+        let (right, bottom) = (self.left + self.width, self.top + self.height);
+        for tick in self.x.ticks() {
+            let x = self.left + self.width * self.x.share(tick);
+            canvas.line([x, self.top, x, bottom], Ink::Faint);
+            canvas.note(x, bottom + 15.0, "middle", &significant(tick, 3));
+        }
+        canvas.line([self.left, bottom, right, bottom], Ink::Middle);
+        canvas.text((self.left + right) / 2.0, bottom + 31.0, "middle", x_name);
+    }
+
     fn drawn(&self, canvas: &mut Canvas, x_name: &str, y_name: &str, label: impl Fn(f64) -> String) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for tick in self.y.ticks() {
@@ -115,14 +127,8 @@ impl Panel {
             canvas.line([self.left, y, right, y], Ink::Faint);
             canvas.note(self.left - 6.0, y + 4.0, "end", &label(tick));
         }
-        for tick in self.x.ticks() {
-            let x = self.left + self.width * self.x.share(tick);
-            canvas.line([x, self.top, x, bottom], Ink::Faint);
-            canvas.note(x, bottom + 15.0, "middle", &significant(tick, 3));
-        }
-        canvas.line([self.left, bottom, right, bottom], Ink::Middle);
+        self.draw_along(canvas, x_name);
         canvas.line([self.left, self.top, self.left, bottom], Ink::Middle);
-        canvas.text((self.left + right) / 2.0, bottom + 31.0, "middle", x_name);
         canvas.upright(self.left - 52.0, (self.top + bottom) / 2.0, y_name);
     }
 }

@@ -11,6 +11,7 @@ mod network;
 pub mod performance_profile;
 mod profiles;
 mod structure;
+pub mod studies;
 
 pub use chains::longest_line;
 pub use convergence::{Trace, convergence};

@@ -20,7 +20,7 @@ const LEASE: Duration = Duration::from_secs(60);
 #[derive(Debug)]
 pub struct Claim<'a> {
     store: &'a Store,
-    path: PathBuf,
+    pub(super) path: PathBuf,
     file: File,
     /// The points at which workers have ended, each as often as that happened.
     deaths: Vec<usize>,

@@ -36,7 +36,9 @@ pub const TABLE: &str = "table.csv";
 #[derive(Debug, Error)]
 pub enum StoreError {
     /// It belongs to another study, or to an earlier version of this one.
-    #[error("{0} holds another study, or this one before it or its problem was changed; begin anew with --fresh, or choose another folder with --out")]
+    #[error(
+        "{0} holds another study, or this one before it or its problem was changed; begin anew with --fresh, or choose another folder with --out"
+    )]
     Other(PathBuf),
     /// There are files in it that no study left.
     #[error("{0} is the folder of no study and not empty; choose another one with --out")]
@@ -154,7 +156,8 @@ impl Store {
     fn is_empty(&self) -> bool {
         // Another worker may have made its folders a moment ago.
         let own = |name: &std::ffi::OsStr| OWN_FOLDERS.iter().any(|own| name == *own) || name.to_string_lossy().starts_with('.');
-        fs::read_dir(&self.folder).map_or(true, |mut entries| entries.all(|entry| entry.is_ok_and(|entry| own(&entry.file_name()))))
+        fs::read_dir(&self.folder)
+            .map_or(true, |mut entries| entries.all(|entry| entry.is_ok_and(|entry| own(&entry.file_name()))))
     }
 
     /// Takes away what an earlier study left, and nothing else.

@@ -44,7 +44,8 @@ fn folders_of_others_are_left_alone() {
 #[test]
 fn a_chain_is_claimed_by_one_and_let_go_of() {
     let folder = tempfile::tempdir().unwrap();
-    let (one, two) = (Store::open(&study("a"), folder.path(), false).unwrap(), Store::open(&study("a"), folder.path(), false).unwrap());
+    let (one, two) =
+        (Store::open(&study("a"), folder.path(), false).unwrap(), Store::open(&study("a"), folder.path(), false).unwrap());
     let claim = one.claim(5).unwrap().unwrap();
     assert!(two.claim(5).unwrap().is_none() && one.claim(5).unwrap().is_none());
     assert_eq!(two.claims(), 1);
