@@ -2,7 +2,7 @@
 
 use super::declaration::{ConstraintEntry, Declaration, DefinitionEntry, Name};
 use super::fields::Scalar;
-use super::source::{Place, Written};
+use super::source::{Argument, Place, Written};
 use crate::problem::Sense;
 
 /// Changes of a file's numbers, and what is asked beside what the file asks.
@@ -19,12 +19,6 @@ pub struct Additions {
     pub minimize: Option<String>,
     /// Names and requirements, as under `[[constraints]]`.
     pub rows: Vec<(String, String)>,
-}
-
-/// A text that is no part of the file, and what mistakes call it.
-pub(super) struct Argument<'a> {
-    pub origin: &'static str,
-    pub text: &'a str,
 }
 
 /// What is added to a file is the study's.

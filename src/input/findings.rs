@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::additions::Argument;
 use super::mistake::{Mistake, Mistakes, SHOWN};
-use super::source::{Place, Source};
+use super::source::{Argument, Place, Source};
 use super::table_lines;
 use crate::problem::mistake_code::MistakeCode;
 

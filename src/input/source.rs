@@ -29,6 +29,12 @@ impl Place {
     }
 }
 
+/// A text that is no part of the file, and what mistakes call it.
+pub(super) struct Argument<'a> {
+    pub origin: &'static str,
+    pub text: &'a str,
+}
+
 /// A text with its name.
 pub(super) struct Source {
     pub name: String,

@@ -104,7 +104,7 @@ fn spaced(
     mistakes: &mut Mistakes<'_>,
 ) -> Option<Axis> {
     let logarithmic = axis.scale == Scale::Log;
-    if logarithmic && !(ends[0] * ends[1] > 0.0) {
+    if logarithmic && (ends.contains(&0.0) || ends[0].signum() != ends[1].signum()) {
         let help = "leave `scale` out, or begin above 0";
         mistakes.tell(span, format!("`{name}` cannot be spaced by logarithms: an end is 0, or they differ in sign"), Some(help));
         return None;

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::axis::Axis;
 use super::declaration::{Declaration, Method, Pareto};
 use super::mistakes::Mistakes;
-use super::reading::{beside, computed};
+use super::problem::{beside, computed};
 use super::{MOST_POINTS, Point, Quantity, designs, points_file};
 use crate::run::RunError;
 

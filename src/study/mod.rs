@@ -13,6 +13,7 @@ mod mistakes;
 mod pictures;
 mod point;
 mod points_file;
+mod problem;
 mod rank;
 mod reading;
 mod retry;

@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::row::finite;
 use super::{OnFailure, Point, Row, Study, StudyError, sensitivity};
 use crate::crosscheck::{Outcome, Status};
 use crate::report::Findings;
@@ -171,8 +172,4 @@ fn quantities(study: &Study, subject: &Subject, x: &[f64]) -> Vec<Option<f64>> {
     let known = analyse::definitions(subject, x).unwrap_or_default();
     let value = |name: &str| known.iter().find(|(known, _)| known == name).and_then(|(_, value)| finite(Some(*value)));
     study.quantities.iter().map(|quantity| value(&quantity.name)).collect()
-}
-
-pub(super) fn finite(value: Option<f64>) -> Option<f64> {
-    value.filter(|value| value.is_finite())
 }

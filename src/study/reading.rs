@@ -10,8 +10,9 @@ use super::axis::{self, Axis};
 use super::declaration::{Declaration, Method};
 use super::layout::{self, Layout};
 use super::mistakes::Mistakes;
+use super::problem::{beside, computed};
 use super::{MOST_LISTED, Options, Quantity, Study};
-use crate::input::{Additions, Document};
+use crate::input::Document;
 use crate::run::{RunError, Subject};
 
 /// Every this many points of a chain a nonlinear problem also starts cold, where the file names no number.
@@ -80,11 +81,6 @@ impl Study {
     }
 }
 
-/// A path that is taken from the folder of the study file.
-pub(super) fn beside(file: &Path, path: &str) -> PathBuf {
-    file.parent().unwrap_or(Path::new("")).join(path)
-}
-
 /// The axes of `[vary]` in the order of the file; `None` where one is wrong.
 fn axes(problem: &Path, declared: &Declaration, mistakes: &mut Mistakes<'_>) -> Result<Option<Vec<Axis>>, RunError> {
     let mut entries: Vec<_> = declared.vary.iter().collect();
@@ -100,15 +96,6 @@ fn axes(problem: &Path, declared: &Declaration, mistakes: &mut Mistakes<'_>) -> 
     let read =
         entries.iter().map(|(name, entry)| axis::read((name.get_ref(), name.span()), entry, method, &mut computed, mistakes));
     Ok(read.collect())
-}
-
-/// The numbers of constant expressions of the problem.
-pub(super) fn computed(problem: &Path, constants: Vec<String>) -> Result<Vec<f64>, RunError> {
-    if constants.is_empty() {
-        return Ok(Vec::new());
-    }
-    let additions = Additions { constants, ..Additions::default() };
-    Ok(Subject::read_with(problem, &additions, &|_| {})?.constants)
 }
 
 fn options(declared: &Declaration, layout: Option<&Layout>, mistakes: &mut Mistakes<'_>) -> Options {

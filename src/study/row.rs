@@ -63,3 +63,8 @@ impl Row {
         Row { seconds: 0.0, ..self.clone() }
     }
 }
+
+/// A number that is one.
+pub(super) fn finite(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| value.is_finite())
+}

@@ -1,7 +1,7 @@
 //! What the optimum gains by each varied name: the envelope theorem (Fiacco 1983, ch. 3). Along minima with unchanged active limits
 //! dF*/dp = ∂L/∂p at the fixed point and multipliers, L the Lagrangian with the active limits in it.
 
-use super::point::finite;
+use super::row::finite;
 use super::{Point, Study};
 use crate::certificate::Side;
 use crate::model::Model;
@@ -85,7 +85,7 @@ fn by_difference(
 
 /// The number the file itself has, of a parameter.
 fn own_value(study: &Study, name: &str) -> Option<f64> {
-    super::reading::computed(&study.problem, vec![name.to_owned()]).ok()?.first().copied()
+    super::problem::computed(&study.problem, vec![name.to_owned()]).ok()?.first().copied()
 }
 
 /// f + Σ yᵢ·(cᵢ − limit) + Σ zⱼ·(xⱼ − bound) of the minimised form, over what is active in `findings`.
