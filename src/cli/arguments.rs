@@ -47,9 +47,9 @@ pub enum Command {
     Verify(Verify),
     /// Many runs of one problem: spans, loads, limits, trade-offs; on all cores, or on a cluster
     Sweep(Sweep),
-    /// One HTML page about a run or several, from the files they left: verdict, what governs, utilisation, sizes, pictures, input
+    /// One HTML page about a run, several, or a study, from the files they left: verdict, what governs, utilisation, sizes, pictures, input
     Report {
-        /// The folders of runs, or their result.json
+        /// The folders of runs, or their result.json; or the folder of a study
         #[arg(required = true, value_name = "RESULT")]
         results: Vec<PathBuf>,
         /// The page; default, of one run: report.html beside the result

@@ -115,6 +115,14 @@ fn every_point_is_a_row_with_what_it_costs() {
     // The last axis is the fastest; the longest is the chain's.
     assert_eq!((number(&rows[1], "slender"), number(&rows[2], "M")), (4.0, 18.75));
     assert_eq!(rows.iter().filter(|row| row["start"] == "warm").count(), 16);
+    let report = Command::new(env!("CARGO_BIN_EXE_ribopt")).current_dir(folder.path()).args(["report", "out"]).output().unwrap();
+    assert!(report.status.success(), "{}", said(&report));
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(
+        page.contains("18: 18 certified")
+            && page.contains("data:image/svg+xml")
+            && page.contains("problem = &quot;rib.toml&quot;")
+    );
     for picture in ["course.svg", "map.svg"] {
         assert!(fs::read_to_string(folder.path().join("out").join(picture)).unwrap().contains("</svg>"));
     }

@@ -1,17 +1,21 @@
 //! One page of HTML about a run, from what the run left: to be read, printed and handed on. Nothing is fetched when it is opened.
 
 mod backends;
+mod document;
 mod limits;
 mod several;
 mod space;
+mod study;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use serde_json::Value;
 
 use super::number::significant;
+use document::figure;
+pub use study::{StudyLeft, study_page};
 use tables::Csv;
 
 /// What a folder of results holds.
@@ -72,29 +76,11 @@ fn number(value: Option<&Value>) -> String {
 /// ```
 pub fn page(lefts: &[Left]) -> String {
     let title = lefts.iter().map(|left| left.text("/problem/title")).collect::<Vec<_>>().join(", ");
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                // Whatever a file of the user's says, nothing is fetched.
-                meta http-equiv="Content-Security-Policy"
-                    content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-                title { (title) }
-                style { (PreEscaped(include_str!("style.css"))) }
-            }
-            body {
-                main {
-                    @if lefts.len() > 1 { (several::beside_each_other(lefts)) }
-                    @for (at, left) in lefts.iter().enumerate() { article id={ "run-" (at + 1) } { (run(left)) } }
-                }
-                script { (PreEscaped(include_str!("sort.js"))) }
-                (space::script(lefts))
-            }
-        }
-    }
-    .into_string()
+    let body = html! {
+        @if lefts.len() > 1 { (several::beside_each_other(lefts)) }
+        @for (at, left) in lefts.iter().enumerate() { article id={ "run-" (at + 1) } { (run(left)) } }
+    };
+    document::document(&title, &body, &space::script(lefts))
 }
 
 /// All about one run.
@@ -202,21 +188,9 @@ fn pictures(left: &Left) -> Markup {
     html! {
         @if !found.is_empty() { h2 { "Pictures" } }
         @for (caption, svg) in found {
-            figure { img alt=(caption) src={ "data:image/svg+xml," (encoded(svg)) }; figcaption { (caption) } }
+            (figure(caption, svg))
         }
     }
-}
-
-/// A text as part of a data URL: what has a meaning there, or in an attribute, is escaped.
-fn encoded(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + text.len() / 8);
-    for c in text.chars() {
-        match c {
-            '%' | '#' | '"' | '<' | '>' | '&' | '\n' | '\r' | '\t' => out += &format!("%{:02X}", u32::from(c)),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 fn remarks(left: &Left) -> Markup {

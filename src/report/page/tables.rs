@@ -24,6 +24,11 @@ impl Csv {
         Csv { header, rows }
     }
 
+    /// The columns' names.
+    pub fn header(&self) -> Vec<&str> {
+        self.header.iter().map(String::as_str).collect()
+    }
+
     /// The place of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|header| header == name)

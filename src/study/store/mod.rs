@@ -72,6 +72,7 @@ pub struct Store {
 struct Mark {
     format: String,
     fingerprint: String,
+    title: String,
     study: String,
     problem: String,
     points: usize,
@@ -106,9 +107,11 @@ impl Store {
         let mark = Mark {
             format: FORMAT.into(),
             fingerprint: study.fingerprint.clone(),
+            title: study.title.clone(),
             study: study.file.display().to_string(),
             problem: study.problem.display().to_string(),
-            points: study.points(),
+            // How many a front will have is known at its end.
+            points: if study.objectives().is_some() { 0 } else { study.points() },
         };
         if store.mark()?.is_none() {
             store.put(MARK, |out| Ok(serde_json::to_writer_pretty(out, &mark)?))?;
