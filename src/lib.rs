@@ -64,9 +64,14 @@
 //! [`crosscheck`]'s answers. The other rooms are public for the command line, tests and benchmarks, and change without notice.
 #![warn(missing_docs)]
 
+// The command line names the house's rooms as any program does.
+extern crate self as ribopt;
+
 pub mod api;
 pub mod backends;
 pub mod certificate;
+#[doc(hidden)]
+pub mod cli;
 pub mod crosscheck;
 #[doc(hidden)]
 pub mod discrete;

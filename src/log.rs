@@ -31,7 +31,8 @@ struct Attempt {
 #[derive(Debug)]
 pub struct IterationLog {
     path: PathBuf,
-    file: File,
+    /// None where attempts are numbered and nothing is written.
+    file: Option<File>,
     with_variables: bool,
     begun: Option<Instant>,
     attempts: Vec<Attempt>,
@@ -53,15 +54,20 @@ impl IterationLog {
         }
         let mut file = File::create(path)?;
         write_row(&mut file, &header)?;
-        Ok(IterationLog {
-            path: path.into(),
-            file,
-            with_variables,
+        Ok(IterationLog { path: path.into(), file: Some(file), with_variables, ..IterationLog::unwritten() })
+    }
+
+    /// A log that numbers attempts as any other and writes nothing.
+    pub fn unwritten() -> IterationLog {
+        IterationLog {
+            path: PathBuf::new(),
+            file: None,
+            with_variables: false,
             begun: None,
             attempts: Vec::new(),
             begun_times: 0,
             failure: None,
-        })
+        }
     }
 
     /// The backend begins anew: further rows are of the next attempt. Seconds count from the first.
@@ -107,9 +113,7 @@ impl IterationLog {
     }
 
     fn row(&mut self, attempt: usize, iteration: &Iteration<'_>) {
-        if self.failure.is_some() {
-            return;
-        }
+        let Some(file) = self.file.as_mut().filter(|_| self.failure.is_none()) else { return };
         let mut row = vec![iteration.iteration.to_string(), iteration.evaluations.to_string()];
         let seconds = self.begun.map_or(0.0, |begun| begun.elapsed().as_secs_f64());
         let numbers = [iteration.objective, iteration.feasibility, iteration.optimality, iteration.step_norm, seconds];
@@ -118,7 +122,7 @@ impl IterationLog {
         if self.with_variables {
             row.extend(iteration.x.iter().copied().map(exact));
         }
-        self.failure = write_row(&mut self.file, &row).err();
+        self.failure = write_row(file, &row).err();
     }
 
     /// Why the log ends early, if it does.

@@ -2,8 +2,6 @@
 
 use std::process::ExitCode;
 
-mod cli;
-
 fn main() -> ExitCode {
-    ExitCode::from(cli::run(std::env::args_os()))
+    ExitCode::from(ribopt::cli::run(std::env::args_os()))
 }

@@ -203,7 +203,7 @@ fn coinciding_frequencies_are_verified() {
         let answer = folder.join(format!("{name}.csv"));
         let [p, q] = factors.map(|factor| factor * least_area());
         fs::write(&answer, format!("name,value\np.A,{p:?}\nq.A,{q:?}\n")).unwrap();
-        assert_eq!(verify(&subject, &answer).unwrap().status, status, "{name}");
+        assert_eq!(verify(&subject, &answer).unwrap().outcome.status, status, "{name}");
     }
 }
 

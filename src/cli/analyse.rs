@@ -6,6 +6,7 @@ use super::arguments::Analyse;
 use super::failure::Failure;
 use super::{output, reading};
 use ribopt::files::Inputs;
+use ribopt::report::answer::EarlierAnswer;
 use ribopt::run::RunError;
 use ribopt::run::Subject;
 use ribopt::run::analyse::{AnalysisError, analyse};
@@ -18,11 +19,8 @@ const NOT_ANALYSED: u8 = 6;
 pub fn run(arguments: &Analyse) -> Result<u8, Failure> {
     let subject = reading::read(&arguments.file, &arguments.changes.set, false)?;
     output::tell(&subject.warnings);
-    if subject.problem().structure.is_none() {
-        let message = format!("{} has no structure: no rib has a start and an end node", subject.about.file);
-        return Err(RunError::Choice(message).into());
-    }
-    let analysis = match analyse(&subject, arguments.answer.as_deref(), arguments.gradient) {
+    let answer = arguments.answer.as_deref().map(EarlierAnswer::read).transpose().map_err(RunError::from)?;
+    let analysis = match analyse(&subject, answer.as_ref(), arguments.gradient) {
         Ok(analysis) => analysis,
         Err(AnalysisError::Run(error)) => return Err(error.into()),
         Err(error) => {
@@ -36,7 +34,7 @@ pub fn run(arguments: &Analyse) -> Result<u8, Failure> {
         None => Vec::new(),
     };
     let problem = subject.problem();
-    output::print(|out| if arguments.json { show::json(&analysis, problem, out) } else { show::text(&analysis, problem, out) })?;
+    output::print(|out| if arguments.json { analysis.write_json(problem, out) } else { show::text(&analysis, problem, out) })?;
     if !arguments.json {
         output::print(|out| written.iter().try_for_each(|path| writeln!(out, "written: {}", path.display())))?;
     }

@@ -104,8 +104,16 @@ pub fn read_with(path: &Path, additions: &Additions, watch: &dyn Fn(Progress<'_>
 /// # Errors
 /// Every mistake of the text and its tables.
 pub fn read_text(name: &str, text: &str) -> Result<Input, Mistakes> {
+    read_text_in(name, text, Path::new(""), &[])
+}
+
+/// [`read_text`] with tables looked for in `folder`, and some of the text's numbers replaced as [`read_watched`] does it.
+///
+/// # Errors
+/// Every mistake of the text, its tables and the overrides.
+pub fn read_text_in(name: &str, text: &str, folder: &Path, overrides: &[String]) -> Result<Input, Mistakes> {
     let source = Source::new(name.to_owned(), text.to_owned());
-    understand(&source, text.as_bytes(), Path::new(""), &Additions::default(), &|_| {})
+    understand(&source, text.as_bytes(), folder, &Additions::changing(overrides), &|_| {})
 }
 
 fn understand(

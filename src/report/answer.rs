@@ -62,6 +62,20 @@ impl EarlierAnswer {
         answer.map_err(unreadable)
     }
 
+    /// Reads the text of a `result.json`, or of its part `variables` alone.
+    ///
+    /// # Errors
+    /// Where it is not of that form, or a value is not a finite number.
+    ///
+    /// ```
+    /// use ribopt::report::answer::EarlierAnswer;
+    /// assert!(EarlierAnswer::of_text(r#"{ "variables": { "depth": 0.3 } }"#).is_ok());
+    /// assert!(EarlierAnswer::of_text(r#"{ "variables": { "depth": null } }"#).is_err());
+    /// ```
+    pub fn of_text(json: &str) -> Result<EarlierAnswer, AnswerError> {
+        Self::from_json(json.as_bytes()).map_err(|cause| AnswerError::Unreadable { path: "given".into(), cause })
+    }
+
     fn from_json(file: impl io::Read) -> Result<EarlierAnswer, String> {
         let ResultFile { variables, constraints } = serde_json::from_reader(file).map_err(|error| error.to_string())?;
         if let Some((name, _)) = variables.iter().find(|(_, value)| !value.is_finite()) {

@@ -1,8 +1,9 @@
 //! `analyse`: what the structure does at a point; nothing is optimised.
 
+mod json;
 pub(super) mod responses;
 
-use std::path::Path;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use super::refinement::{self, Lowest};
@@ -52,13 +53,27 @@ pub enum AnalysisError {
     Assembly(#[from] AssemblyError),
 }
 
+impl Analysis {
+    /// Writes everything as one JSON object.
+    ///
+    /// # Errors
+    /// Whatever the writer says.
+    pub fn write_json(&self, problem: &Problem, out: &mut dyn Write) -> io::Result<()> {
+        json::write(self, problem, out)
+    }
+}
+
 /// Analyses the structure at an answer, or at the start.
 ///
 /// # Errors
-/// An answer that cannot be read, a mechanism, a value that does not exist.
-pub fn analyse(subject: &Subject, answer: Option<&Path>, gradient: bool) -> Result<Analysis, AnalysisError> {
+/// No structure, an answer to another problem, a mechanism, a value that does not exist.
+pub fn analyse(subject: &Subject, answer: Option<&EarlierAnswer>, gradient: bool) -> Result<Analysis, AnalysisError> {
+    if subject.problem().structure.is_none() {
+        let message = format!("{} has no structure: no rib has a start and an end node", subject.about.file);
+        return Err(RunError::Choice(message).into());
+    }
     let x = match answer {
-        Some(path) => EarlierAnswer::read(path).map_err(RunError::from)?.point(subject.shown()).map_err(RunError::from)?,
+        Some(answer) => answer.point(subject.shown()).map_err(RunError::from)?,
         None => subject.shown().meta().start.clone(),
     };
     let problem = subject.problem();

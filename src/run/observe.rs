@@ -22,16 +22,19 @@ struct Record {
 }
 
 impl<'s> Records<'s> {
-    /// Opens the logs, before anything is solved: a disk that cannot be written to is told at once.
+    /// Opens the logs, before anything is solved: a disk that cannot be written to is told at once. Without results nothing is written.
     ///
     /// # Errors
     /// A log that cannot be made.
-    pub fn open(subject: &'s Subject, choices: &[Choice], results: &Results) -> Result<Records<'s>, RunError> {
+    pub fn open(subject: &'s Subject, choices: &[Choice], results: Option<&Results>) -> Result<Records<'s>, RunError> {
         let model = subject.shown();
         let open = |choice: &Choice| {
-            let (backend, path) = (choice.backend.name(), results.log(choice.backend.name()));
-            let log = IterationLog::create(&path, model.meta().variables(), |j| model.variable_name(j));
-            let log = log.map_err(|cause| RunError::from(FolderError::Unwritable { path, cause }))?;
+            let backend = choice.backend.name();
+            let log = match results.map(|results| results.log(backend)) {
+                None => IterationLog::unwritten(),
+                Some(path) => IterationLog::create(&path, model.meta().variables(), |j| model.variable_name(j))
+                    .map_err(|cause| RunError::from(FolderError::Unwritable { path, cause }))?,
+            };
             Ok(RefCell::new(Record { log, trace: Trace::new(backend) }))
         };
         Ok(Records { records: choices.iter().map(open).collect::<Result<_, RunError>>()?, subject })

@@ -55,7 +55,7 @@ pub struct Solved {
     /// The problem that the point was judged in, where that is not the user's: without vanished bars, or with coinciding modes.
     judged: Option<Subject>,
     place: PathBuf,
-    _locked: Folder,
+    _locked: Option<Folder>,
 }
 
 impl Solved {
@@ -78,7 +78,7 @@ impl Solved {
         self.judged.as_ref().unwrap_or(subject)
     }
 
-    /// Where the files are.
+    /// Where the files are; empty where none were left.
     pub fn folder(&self) -> &Path {
         &self.place
     }
@@ -90,16 +90,33 @@ impl Solved {
 /// Before anything is solved: a folder that cannot be used, no backend that takes the problem. Files that cannot be written
 /// afterwards are told by [`Solved::unwritten`].
 pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
+    let default = default_folder(Path::new(&subject.about.file));
+    let backends: Vec<&str> = request.choices.iter().map(|choice| choice.backend.name()).collect();
+    run(subject, request, watcher, || Ok(Some(Results::open(request.out.unwrap_or(&default), &backends, request.inputs)?)))
+}
+
+/// The same without any file: [`Request::out`], [`Request::inputs`] and [`Request::plot`] count for nothing.
+///
+/// # Errors
+/// No backend takes the problem.
+pub fn solve_in_memory(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher) -> Result<Solved, RunError> {
+    run(subject, request, watcher, || Ok(None))
+}
+
+fn run(
+    subject: &Subject,
+    request: &Request<'_>,
+    watcher: &mut dyn Watcher,
+    results: impl FnOnce() -> Result<Option<Results>, RunError>,
+) -> Result<Solved, RunError> {
     let remaining = Remaining::new();
     subject.refuse_mechanism()?;
     refuse_if_none_accepts(&request.choices, &subject.task(&subject.model().meta().start, None))?;
     let mut about = subject.about.clone();
     let (start, start_multipliers) = starting_point(subject, request.start, &mut about.warnings);
-    let default = default_folder(Path::new(&about.file));
-    let backends: Vec<&str> = request.choices.iter().map(|choice| choice.backend.name()).collect();
-    let results = Results::open(request.out.unwrap_or(&default), &backends, request.inputs)?;
-    about.warnings.extend(results.belongs_to_another(&about.file, &about.sha256));
-    let records = Records::open(subject, &request.choices, &results)?;
+    let results = results()?;
+    about.warnings.extend(results.as_ref().and_then(|results| results.belongs_to_another(&about.file, &about.sha256)));
+    let records = Records::open(subject, &request.choices, results.as_ref())?;
     let task = Task {
         start_multipliers: start_multipliers.as_deref(),
         starts: request.starts,
@@ -118,15 +135,35 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
     let few_rows = subject.shown().meta().rows() <= MOST_LISTED;
     let utilisation = few_rows.then(|| utilisation::table(subject, &outcome.x).ok()).flatten();
     let (volumes, mass) = (subject.volumes(&outcome.x), sizes::mass(subject.problem(), &outcome.x));
+    let mut solved = Solved {
+        outcome,
+        volumes,
+        mass,
+        utilisation,
+        unwritten: None,
+        judged: None,
+        place: PathBuf::new(),
+        _locked: None,
+        about,
+    };
+    if let Some(results) = results {
+        leave(subject, &mut solved, results, records, (&start, request.plot));
+    }
+    Ok(Solved { judged, ..solved })
+}
+
+/// Leaves the files of a run that began at this start, pictures too where these are asked for.
+fn leave(subject: &Subject, solved: &mut Solved, results: Results, records: Records<'_>, (start, plot): (&[f64], bool)) {
+    let Solved { outcome, volumes, mass, utilisation, about, .. } = &*solved;
     let courses = courses(subject, &outcome.x).ok().flatten();
-    let (model, class) = (subject.shown(), subject.class());
-    let findings = Findings { about: &about, model, class, outcome: &outcome, volumes, mass, utilisation: utilisation.as_ref() };
+    let (model, class, mass, volumes) = (subject.shown(), subject.class(), *mass, *volumes);
+    let findings = Findings { about, model, class, outcome, volumes, mass, utilisation: utilisation.as_ref() };
     let ending =
         Ending { sha256: &about.sha256, cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached) };
     let (locked, place, written) = results.leave(ending, |files| {
         files.file("variables.csv", |out| tables::variables(&findings, out))?;
         files.file("constraints.csv", |out| tables::constraints(&findings, out))?;
-        if let Some(table) = &utilisation {
+        if let Some(table) = utilisation {
             files.file("limits.csv", |out| table.write_limits(out))?;
             if !table.ribs.is_empty() {
                 files.file("utilisation.csv", |out| table.write_ribs(out))?;
@@ -137,17 +174,17 @@ pub fn solve(subject: &Subject, request: &Request<'_>, watcher: &mut dyn Watcher
             structure_files::tables(courses, &mut structure_files::into(files))?;
         }
         files.file("result.json", |out| result::write(&findings, out))?;
-        if request.plot {
-            let start = outcome.moved_start.as_ref().map_or(&start, |moved| &moved.x);
+        if plot {
+            let start = outcome.moved_start.as_ref().map_or(start, |moved| &moved.x);
             let start = &start[..start.len().min(subject.shown().meta().variables())];
-            pictures::leave(&records.traces(&outcome), start, subject, &findings, files)?;
+            pictures::leave(&records.traces(outcome), start, subject, &findings, files)?;
             if let Some(courses) = &courses {
-                structure_files::pictures(courses, utilisation.as_ref(), &about, &mut structure_files::into(files))?;
+                structure_files::pictures(courses, utilisation.as_ref(), about, &mut structure_files::into(files))?;
             }
         }
         Ok(())
     });
-    Ok(Solved { outcome, volumes, mass, utilisation, unwritten: written.err(), judged, place, _locked: locked, about })
+    (solved.unwritten, solved.place, solved._locked) = (written.err(), place, Some(locked));
 }
 
 /// What a run without files is given besides the problem.

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::{RunError, plausible};
 use crate::crosscheck::Task;
 use crate::files::Inputs;
-use crate::input::{self, Additions, Dimensions, Progress};
+use crate::input::{self, Additions, Dimensions, Input, Progress};
 use crate::model::structural::mechanism;
 use crate::model::{AssemblyError, Class, Formulation, Lifted, Model, Reduced, Substitution, assemble_any, formulate, volumes};
 use crate::problem::formula::Total;
@@ -17,7 +17,8 @@ use crate::report::result::Mistake;
 use crate::report::{self, About, Volumes};
 use crate::units::Shown;
 
-/// A problem ready to be solved.
+/// A problem ready to be solved. A copy shares what was assembled and has settings of its own.
+#[derive(Clone)]
 pub struct Subject {
     /// Its origin and words.
     pub about: About,
@@ -31,7 +32,7 @@ pub struct Subject {
     pub warnings: Vec<String>,
     /// The numbers of the additions' constants.
     pub constants: Vec<f64>,
-    formulation: Formulation,
+    formulation: Arc<Formulation>,
 }
 
 impl Subject {
@@ -56,16 +57,7 @@ impl Subject {
     /// # Errors
     /// All mistakes of the file, its tables and the additions.
     pub fn read_with(file: &Path, additions: &Additions, watch: &dyn Fn(Progress<'_>)) -> Result<Subject, RunError> {
-        let input = input::read_with(file, additions, watch)?;
-        let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
-        subject.inputs = Inputs::new(input.files);
-        subject.about.shown = input.dimensions.shown.clone();
-        subject.dimensions = input.dimensions;
-        subject.about.changes = additions.changes.clone();
-        subject.constants = input.constants;
-        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
-        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
-        Ok(subject)
+        Subject::of_input(input::read_with(file, additions, watch)?, file, &additions.changes)
     }
 
     /// Reads a problem from a text; `name` is what mistakes and reports call it.
@@ -73,12 +65,26 @@ impl Subject {
     /// # Errors
     /// All mistakes of the text.
     pub fn of_text(name: &str, text: &str) -> Result<Subject, RunError> {
-        let input = input::read_text(name, text)?;
-        let mut subject = Subject::assemble(input.problem, Path::new(name), input.sha256)?;
+        Subject::of_text_in(name, text, Path::new(""), &[])
+    }
+
+    /// [`Subject::of_text`] with the changes of `--set`; the text's tables are looked for in `folder`.
+    ///
+    /// # Errors
+    /// All mistakes of the text, its tables and the changes.
+    pub fn of_text_in(name: &str, text: &str, folder: &Path, changes: &[String]) -> Result<Subject, RunError> {
+        Subject::of_input(input::read_text_in(name, text, folder, changes)?, Path::new(name), changes)
+    }
+
+    fn of_input(input: Input, file: &Path, changes: &[String]) -> Result<Subject, RunError> {
+        let mut subject = Subject::assemble(input.problem, file, input.sha256)?;
         subject.inputs = Inputs::new(input.files);
         subject.about.shown = input.dimensions.shown.clone();
         subject.dimensions = input.dimensions;
-        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).collect();
+        subject.about.changes = changes.to_vec();
+        subject.constants = input.constants;
+        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
+        subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
         Ok(subject)
     }
 
@@ -92,7 +98,7 @@ impl Subject {
             let mistake = Mistake { file: Some(file.clone()), ..Mistake::of_command(error.to_string()) };
             RunError::Input(format!("mistake: {error}\n--> {file}"), vec![mistake])
         };
-        let formulation = formulate(problem).map_err(too_dense)?;
+        let formulation = Arc::new(formulate(problem).map_err(too_dense)?);
         let problem = formulation.model.problem();
         let about = About {
             title: problem.title.clone(),
@@ -126,7 +132,7 @@ impl Subject {
             dimensions: self.dimensions.clone(),
             warnings: Vec::new(),
             constants: Vec::new(),
-            formulation: formulate(problem)?,
+            formulation: Arc::new(formulate(problem)?),
         })
     }
 

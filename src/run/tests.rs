@@ -7,7 +7,7 @@ use super::bounds::bounds;
 use super::check::check;
 use super::choice::choose;
 use super::compare::compare;
-use super::solve::{Request, solve};
+use super::solve::{Request, solve, solve_in_memory};
 use super::verify::verify;
 use super::*;
 use crate::crosscheck::Status;
@@ -84,8 +84,25 @@ fn a_run_leaves_its_files_and_its_answer_verifies() {
         assert!(fs::metadata(folder.path().join(name)).unwrap().len() > 0, "{name}");
     }
     let verified = verify(&subject, &folder.path().join("result.json")).unwrap();
-    assert_eq!(verified.status, Status::Certified);
-    assert_eq!(verified.objective, solved.outcome.objective);
+    assert_eq!(verified.outcome.status, Status::Certified);
+    assert_eq!(verified.outcome.objective, solved.outcome.objective);
+}
+
+#[test]
+fn a_run_in_memory_finds_the_same_and_leaves_nothing() {
+    let (subject, folder) = (subject(), tempfile::tempdir().unwrap());
+    let out = folder.path().join("out");
+    let request = Request { plot: true, ..request(&subject, &out) };
+    let text = |solved: &super::solve::Solved| {
+        let mut text = Vec::new();
+        crate::report::result::write(&solved.findings(&subject), &mut text).unwrap();
+        let lines = String::from_utf8(text).unwrap();
+        lines.lines().filter(|line| !line.contains("\"seconds\"")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let in_memory = text(&solve_in_memory(&subject, &request, &mut ()).unwrap());
+    assert!(!out.exists());
+    assert_eq!(text(&solve(&subject, &request, &mut ()).unwrap()), in_memory);
+    assert!(out.join("result.json").exists());
 }
 
 #[test]

@@ -5,17 +5,57 @@ use std::path::Path;
 use super::coinciding;
 use super::present::present;
 use super::vanished::without_vanished;
-use super::{RunError, Subject};
+use super::{RunError, Subject, sizes, utilisation};
 use crate::certificate::{Certificate, Extent, Tolerances, certify};
 use crate::crosscheck::{Outcome, Status};
 use crate::report::answer::EarlierAnswer;
+use crate::report::{Findings, Volumes};
 
-/// Certifies the point of an answer file. The outcome has no solutions.
+/// What was found of a point.
+pub struct Verified {
+    /// The verdict; it has no solutions.
+    pub outcome: Outcome,
+    volumes: Option<Volumes>,
+    mass: Option<f64>,
+    utilisation: Option<utilisation::Table>,
+}
+
+impl Verified {
+    /// What reports speak of.
+    pub fn findings<'a>(&'a self, subject: &'a Subject) -> Findings<'a> {
+        Findings {
+            about: &subject.about,
+            model: subject.shown(),
+            class: subject.class(),
+            outcome: &self.outcome,
+            volumes: self.volumes,
+            mass: self.mass,
+            utilisation: self.utilisation.as_ref(),
+        }
+    }
+}
+
+/// Certifies the point of an answer file, and measures it.
 ///
 /// # Errors
 /// Where the answer cannot be read or is not a point of this problem.
-pub fn verify(subject: &Subject, answer: &Path) -> Result<Outcome, RunError> {
-    let point = EarlierAnswer::read(answer)?.point(subject.shown())?;
+pub fn verify(subject: &Subject, answer: &Path) -> Result<Verified, RunError> {
+    verify_answer(subject, &EarlierAnswer::read(answer)?)
+}
+
+/// The same of an answer that was read.
+///
+/// # Errors
+/// Where it is not a point of this problem.
+pub fn verify_answer(subject: &Subject, answer: &EarlierAnswer) -> Result<Verified, RunError> {
+    let outcome = certified(subject, answer)?;
+    let volumes = subject.volumes(&outcome.x);
+    let (mass, utilisation) = (sizes::mass(subject.problem(), &outcome.x), utilisation::table(subject, &outcome.x).ok());
+    Ok(Verified { outcome, volumes, mass, utilisation })
+}
+
+fn certified(subject: &Subject, answer: &EarlierAnswer) -> Result<Outcome, RunError> {
+    let point = answer.point(subject.shown())?;
     if let Some((rest, x, remark)) = without_vanished(subject, &point) {
         let found = judged(&rest, &x);
         let message = format!("{remark}. Of the structure without them: {}", found.message);

@@ -95,7 +95,7 @@ fn judged_in_file(subject: &Subject, x: &[f64], draft: &Draft, original: &Path, 
     let file = folder.join("in-file.csv");
     fs::write(&file, answer).map_err(|cause| cause.to_string())?;
     let subject = Subject::read(original, &[]).map_err(|error| error.to_string())?;
-    match verify(&subject, &file) {
+    match verify(&subject, &file).map(|verified| verified.outcome) {
         Err(RunError::Answer(_)) => Ok(None),
         Err(other) => Err(other.to_string()),
         Ok(outcome) if outcome.certificate.is_none() => {
