@@ -75,3 +75,12 @@ fn units_of_a_file_are_told() {
     let line = out(&told).lines().nth(1).map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
     assert_eq!(line.as_deref(), Some("E force/length² 210 GPa"), "{}", out(&told));
 }
+
+#[test]
+fn help_lists_every_example() {
+    let help = out(&ribopt(&folder(RIB), "new --help"));
+    let listed = |name: &str| help.split([' ', ',', '\n']).any(|word| word == name);
+    for name in ::ribopt::input::examples() {
+        assert!(listed(name), "{name}");
+    }
+}

@@ -59,7 +59,7 @@ fn smooth(arguments: &Smooth) -> Result<u8, Failure> {
     let method = match arguments.method {
         Method::Laplacian => smooth::Method::Laplacian,
         Method::GaussSeidel => smooth::Method::GaussSeidel,
-        Method::Taubin => smooth::Method::Taubin { mu: arguments.mu.unwrap_or(-1.06 * arguments.relaxation) },
+        Method::Taubin => smooth::Method::taubin(arguments.relaxation, arguments.mu),
     };
     let options = smooth::Options {
         method,

@@ -37,23 +37,28 @@ pub struct CheckReport {
 /// A file that cannot be read.
 pub fn check(source: &Source) -> Outcome<CheckReport> {
     let (mesh, weld) = source.polygons()?;
+    Ok(CheckReport { weld, ..check_mesh(source.path.display().to_string(), mesh, source.rule) })
+}
+
+/// The same of a mesh that was read or made; `file` is what the report calls it.
+pub fn check_mesh(file: String, mesh: PolygonMesh, rule: Rule) -> CheckReport {
     let is_quads = mesh.face_count() > 0 && mesh.faces().all(|face| face.len() == 4);
     let kind = match (is_quads, mesh.is_lines()) {
         (true, _) => "quad mesh",
         (_, true) => "lines",
         _ => "polygon mesh",
     };
-    let (found, invariants, notes) = if is_quads { check_quads(mesh) } else { check_others(mesh, source.rule) };
-    Ok(CheckReport {
-        file: source.path.display().to_string(),
+    let (found, invariants, notes) = if is_quads { check_quads(mesh) } else { check_others(mesh, rule) };
+    CheckReport {
+        file,
         kind,
         sound: found.0.is_empty(),
-        weld,
+        weld: None,
         message: if found.0.is_empty() { "no defects".into() } else { found.to_string() },
         defects: found.0,
         notes,
         invariants,
-    })
+    }
 }
 
 type Checked = (Defects, Invariants, Vec<String>);

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::{Outcome, Source, tables, write_file, write_report};
-use crate::mesh::defects::DefectKind;
+use crate::mesh::defects::{DefectKind, Defects};
 use crate::mesh::formats::{self, DxfLine, ending};
 use crate::mesh::graph::{Graph, Rule};
 use crate::mesh::network::Network;
@@ -13,15 +13,35 @@ use crate::mesh::stations::{self, Support};
 use crate::mesh::trace::{self, Line};
 use crate::mesh::{PolygonMesh, QuadMesh, Vector, ribs};
 
-/// The rib lines of a file, and what they run over.
-struct Lines {
-    support: Box<dyn Support>,
+/// Rib lines, and what they run over.
+pub struct Lines {
+    /// Where vertices are, and the surface's normals there.
+    pub support: Box<dyn Support>,
     positions: Vec<Vector>,
-    lines: Vec<Line>,
-    report: trace::TraceReport,
+    /// The lines.
+    pub lines: Vec<Line>,
+    /// What tracing found.
+    pub report: trace::TraceReport,
 }
 
 impl Lines {
+    /// Those of a mesh: a quad mesh by its own structure; anything else, and quads around edges of several faces, as edges.
+    ///
+    /// # Errors
+    /// What leaves edges without a place.
+    pub fn of(mesh: PolygonMesh, rule: Rule) -> Result<Lines, Defects> {
+        let is_quads = mesh.face_count() > 0 && mesh.faces().all(|face| face.len() == 4);
+        if is_quads && matches!(rule, Rule::Auto | Rule::Topology) {
+            let only_junctions = |kind| matches!(kind, DefectKind::MoreThanTwoFaces | DefectKind::BrokenFan);
+            match QuadMesh::new(mesh.clone()) {
+                Ok(quads) => return Ok(Lines::of_quads(quads, mesh.notes)),
+                Err(found) if found.0.iter().all(|defect| only_junctions(defect.kind)) => {}
+                Err(found) => return Err(found),
+            }
+        }
+        Ok(Lines::of_graph(Graph::new(mesh, rule)?))
+    }
+
     fn of_quads(mesh: QuadMesh, notes: Vec<String>) -> Self {
         let lines = trace::trace(&mesh);
         let report = trace::TraceReport { notes, ..trace::report(&mesh, &lines) };
@@ -37,19 +57,8 @@ impl Lines {
 }
 
 impl Source {
-    /// A quad mesh by its own structure; anything else, and quads around edges of several faces, as edges.
     fn lines(&self) -> Outcome<Lines> {
-        let (mesh, _) = self.polygons()?;
-        let is_quads = mesh.face_count() > 0 && mesh.faces().all(|face| face.len() == 4);
-        if is_quads && matches!(self.rule, Rule::Auto | Rule::Topology) {
-            let only_junctions = |kind| matches!(kind, DefectKind::MoreThanTwoFaces | DefectKind::BrokenFan);
-            match QuadMesh::new(mesh.clone()) {
-                Ok(quads) => return Ok(Lines::of_quads(quads, mesh.notes)),
-                Err(found) if found.0.iter().all(|defect| only_junctions(defect.kind)) => {}
-                Err(found) => return Err(self.defects(found)),
-            }
-        }
-        Ok(Lines::of_graph(Graph::new(mesh, self.rule).map_err(|cause| self.defects(cause))?))
+        Lines::of(self.polygons()?.0, self.rule).map_err(|cause| self.defects(cause))
     }
 }
 

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-pub use check::{CheckReport, check};
-pub use lines::{RibsReport, ribs_folder, slice_file, trace_file};
+pub use check::{CheckReport, check, check_mesh};
+pub use lines::{Lines, RibsReport, ribs_folder, slice_file, trace_file};
 pub use solids::solids;
 
 use super::closest::Surface;
@@ -20,7 +20,7 @@ use super::formats::{self, FormatError, ending};
 use super::graph::{self, Rule};
 use super::invariants::{Invariants, measure};
 use super::network::NetworkError;
-use super::section::{self, PieceReport, Plane};
+use super::section::{self, Piece, PieceReport, Plane};
 use super::stations::StationError;
 use super::weld::{WeldReport, weld};
 use super::{Defects, PolygonMesh, QuadMesh, generate, reconstruct, ribs, rounded, smooth};
@@ -68,26 +68,12 @@ pub struct Source {
 
 impl Source {
     fn polygons(&self) -> Outcome<(PolygonMesh, Option<WeldReport>)> {
-        let mut mesh = formats::read(&self.path)?;
-        let report = match self.weld {
-            None => None,
-            Some(tolerance) if tolerance > 0.0 && tolerance.is_finite() => {
-                let (welded, report) = weld(mesh, tolerance);
-                mesh = welded;
-                Some(report)
-            }
-            Some(tolerance) => return Err(CommandError::Weld(tolerance)),
-        };
-        let repeated = mesh.drop_repeated_corners();
-        if repeated > 0 {
-            mesh.notes.push(format!("{repeated} faces repeat a corner; they count with the corners that are left"));
+        let (mut mesh, mut report) = (formats::read(&self.path)?, None);
+        if let Some(tolerance) = self.weld {
+            let (welded, what) = welded(mesh, tolerance)?;
+            (mesh, report) = (welded, Some(what));
         }
-        graph::settle_flags(&mut mesh);
-        if mesh.face_count() > 0 && mesh.ribs.is_empty() && mesh.faces().all(|face| face.len() == 3) {
-            let note = "every face is a triangle, and every edge counts as a rib, diagonals too; if the mesh was triangulated when it \
-                        was exported, export the quads, or flag the edges that carry ribs (OBJ l elements)";
-            mesh.notes.push(note.into());
-        }
+        settle(&mut mesh);
         Ok((mesh, report))
     }
 
@@ -97,6 +83,32 @@ impl Source {
 
     fn defects(&self, cause: Defects) -> CommandError {
         CommandError::Defects { path: self.path.display().to_string(), cause }
+    }
+}
+
+/// A mesh with vertices within a distance joined.
+///
+/// # Errors
+/// A tolerance that is no positive number.
+pub fn welded(mesh: PolygonMesh, tolerance: f64) -> Outcome<(PolygonMesh, WeldReport)> {
+    match tolerance > 0.0 && tolerance.is_finite() {
+        true => Ok(weld(mesh, tolerance)),
+        false => Err(CommandError::Weld(tolerance)),
+    }
+}
+
+/// Drops corners that repeat their neighbour, takes flags to the vertices of faces, and notes what a user should know: what every stage
+/// begins with.
+pub fn settle(mesh: &mut PolygonMesh) {
+    let repeated = mesh.drop_repeated_corners();
+    if repeated > 0 {
+        mesh.notes.push(format!("{repeated} faces repeat a corner; they count with the corners that are left"));
+    }
+    graph::settle_flags(mesh);
+    if mesh.face_count() > 0 && mesh.ribs.is_empty() && mesh.faces().all(|face| face.len() == 3) {
+        let note = "every face is a triangle, and every edge counts as a rib, diagonals too; if the mesh was triangulated when it \
+                    was exported, export the quads, or flag the edges that carry ribs (OBJ l elements)";
+        mesh.notes.push(note.into());
     }
 }
 
@@ -164,18 +176,26 @@ pub struct SectionReport {
 /// # Errors
 /// Bad files, a face in the plane, open chains.
 pub fn section_file(solid: &Source, plane: &Plane, out: &Path) -> Outcome<SectionReport> {
-    let mesh = solid.polygons()?.0;
-    let pieces = section::cut(&mesh, plane)?;
-    let numbers: Vec<PieceReport> = pieces.iter().map(|piece| piece.properties).collect();
+    let (pieces, report) = section(&solid.polygons()?.0, plane)?;
     write_file(out, |file| match ending(out).as_str() {
         "svg" => file.write_all(tables::section_svg(&pieces).as_bytes()),
-        _ => tables::pieces(file, &numbers).map_err(std::io::Error::other),
+        _ => tables::pieces(file, &report.pieces).map_err(std::io::Error::other),
     })?;
-    let sum: f64 = numbers.iter().map(|piece| piece.area).sum();
-    let area = section::union_area(&pieces).unwrap_or(sum);
-    let report = SectionReport { pieces: numbers, area, overlap: sum - area, notes: section_notes(&mesh, plane, sum, area) };
     write_report(&out.with_extension("json"), &report)?;
     Ok(report)
+}
+
+/// The section of a solid, and what is to be said of it.
+///
+/// # Errors
+/// No faces, a face in the plane, open chains.
+pub fn section(solid: &PolygonMesh, plane: &Plane) -> Outcome<(Vec<Piece>, SectionReport)> {
+    let pieces = section::cut(solid, plane)?;
+    let numbers: Vec<PieceReport> = pieces.iter().map(|piece| piece.properties).collect();
+    let sum: f64 = numbers.iter().map(|piece| piece.area).sum();
+    let area = section::union_area(&pieces).unwrap_or(sum);
+    let report = SectionReport { pieces: numbers, area, overlap: sum - area, notes: section_notes(solid, plane, sum, area) };
+    Ok((pieces, report))
 }
 
 fn section_notes(mesh: &PolygonMesh, plane: &Plane, sum: f64, area: f64) -> Vec<String> {
@@ -201,7 +221,18 @@ fn section_notes(mesh: &PolygonMesh, plane: &Plane, sum: f64, area: f64) -> Vec<
 /// # Errors
 /// An unknown name, a file that cannot be written.
 pub fn new_file(name: &str, out: &Path) -> Outcome<Invariants> {
-    let mesh = match name {
+    let mesh = by_formula(name)?;
+    formats::write(out, &mesh, &[])?;
+    let mesh = QuadMesh::new(mesh).map_err(|cause| CommandError::Defects { path: name.into(), cause })?;
+    Ok(measure(&mesh))
+}
+
+/// One of the meshes made by formula.
+///
+/// # Errors
+/// An unknown name.
+pub fn by_formula(name: &str) -> Outcome<PolygonMesh> {
+    Ok(match name {
         "grid" => generate::grid(4, 3, 1.0),
         "cube" => generate::cube(3),
         "vault" => generate::vault(12, 14, 10.0, 14.0, 3.0),
@@ -212,10 +243,7 @@ pub fn new_file(name: &str, out: &Path) -> Outcome<Invariants> {
             let known = "grid, cube, small-vault, vault, dome, shell".into();
             return Err(CommandError::UnknownMesh { name: name.into(), known });
         }
-    };
-    formats::write(out, &mesh, &[])?;
-    let mesh = QuadMesh::new(mesh).map_err(|cause| CommandError::Defects { path: name.into(), cause })?;
-    Ok(measure(&mesh))
+    })
 }
 
 /// Writes a report as JSON. Numbers that are none become null.

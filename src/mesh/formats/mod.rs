@@ -72,7 +72,7 @@ impl FormatError {
 }
 
 /// Largest magnitude of a coordinate: its cube is still a number.
-const LARGEST: f64 = 1e100;
+pub const LARGEST: f64 = 1e100;
 
 const READABLE: [&str; 6] = ["obj", "ply", "off", "stl", "csv", "dxf"];
 

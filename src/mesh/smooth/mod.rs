@@ -28,6 +28,13 @@ pub enum Method {
     },
 }
 
+impl Method {
+    /// Taubin's, with the growing step that goes with this relaxation where none is given.
+    pub fn taubin(relaxation: f64, mu: Option<f64>) -> Method {
+        Method::Taubin { mu: mu.unwrap_or(-1.06 * relaxation) }
+    }
+}
+
 /// What becomes of vertices on boundaries and creases. Corners never move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Curves {
