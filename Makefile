@@ -13,7 +13,7 @@ run: build
 	./target/release/ribopt solve $(EXAMPLE)
 
 test: cmake
-	$(CARGO) test --release
+	$(CARGO) test --release --workspace
 
 build: cmake
 	$(CARGO) build --release

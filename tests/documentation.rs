@@ -9,8 +9,19 @@ const OUTSIDE: &[&str] =
 const OUTSIDE_PATHS: &[&str] = &["../shared", "/work/", "programming-algorithm"];
 
 /// Where text is searched, from the repository's root.
-const PLACES: &[&str] =
-    &["src", "docs", "tests", "examples", "benches", "fuzz", "problems", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"];
+const PLACES: &[&str] = &[
+    "src",
+    "docs",
+    "tests",
+    "examples",
+    "benches",
+    "fuzz",
+    "problems",
+    "python",
+    "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+];
 const ENDINGS: &[&str] = &["rs", "md", "toml", "py", "csv"];
 
 /// The table of numbers in docs/certificate.md is that of the code.

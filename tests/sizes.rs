@@ -69,7 +69,8 @@ fn declared(line: &str) -> Option<&str> {
 
 fn sources() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (mut found, mut folders) = (Vec::new(), ["src", "tests", "examples", "benches"].map(|folder| root.join(folder)).to_vec());
+    let (mut found, mut folders) =
+        (Vec::new(), ["src", "tests", "examples", "benches", "python/src"].map(|folder| root.join(folder)).to_vec());
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
