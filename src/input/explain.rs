@@ -1,4 +1,4 @@
-//! What each kind of mistake means: the parts of `docs/mistakes.md`.
+//! What each kind of mistake and warning means: the parts of `docs/mistakes.md`.
 
 use crate::problem::mistake_code::MistakeCode;
 use crate::problem::nearest::did_you_mean;
@@ -26,7 +26,7 @@ pub fn explain(code: Option<&str>) -> Result<String, String> {
         None => {
             let names = || MistakeCode::ALL.iter().map(|code| code.name());
             let help = did_you_mean(wanted, names()).unwrap_or_else(|| "`ribopt explain` lists them".to_owned());
-            Err(format!("there is no kind of mistake `{wanted}`; {help}"))
+            Err(format!("there is no kind of mistake or warning `{wanted}`; {help}"))
         }
     }
 }

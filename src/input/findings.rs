@@ -11,8 +11,7 @@ use crate::problem::mistake_code::MistakeCode;
 const KEPT: usize = 1000;
 
 struct Finding {
-    /// Of a mistake.
-    code: Option<MistakeCode>,
+    code: MistakeCode,
     place: Place,
     message: String,
     help: Option<String>,
@@ -34,16 +33,16 @@ impl Findings {
     /// Something wrong.
     pub fn mistake(&mut self, code: MistakeCode, place: Place, message: impl Into<String>, help: impl Into<Help>) {
         if self.mistakes.len() < KEPT {
-            self.mistakes.push(Finding { code: Some(code), place, message: message.into(), help: help.into().0 });
+            self.mistakes.push(Finding { code, place, message: message.into(), help: help.into().0 });
         } else {
             self.uncounted += 1;
         }
     }
 
     /// Something the user should hear of.
-    pub fn warning(&mut self, place: Place, message: impl Into<String>, help: impl Into<Help>) {
+    pub fn warning(&mut self, code: MistakeCode, place: Place, message: impl Into<String>, help: impl Into<Help>) {
         if self.warnings.len() < KEPT {
-            self.warnings.push(Finding { code: None, place, message: message.into(), help: help.into().0 });
+            self.warnings.push(Finding { code, place, message: message.into(), help: help.into().0 });
         }
     }
 
@@ -91,7 +90,7 @@ impl Findings {
     }
 
     fn place(&self, finding: &Finding, source: &Source, arguments: &[Argument<'_>], rows: &[table_lines::Lines]) -> Mistake {
-        let (code, message, help) = (finding.code, finding.message.clone(), finding.help.clone());
+        let (code, message, help) = (Some(finding.code), finding.message.clone(), finding.help.clone());
         match finding.place {
             Place::File { start, end } => source.mistake(code, start as usize..end as usize, message, help),
             Place::Argument { number, start, end } => {

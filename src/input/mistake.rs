@@ -11,7 +11,7 @@ pub const SHOWN: usize = 100;
 /// One mistake (or one warning) at one place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mistake {
-    /// What kind of mistake it is; warnings have none.
+    /// What kind of mistake or warning it is; mistakes of the command line have none.
     pub code: Option<MistakeCode>,
     /// The file as the user named it, or `--set`.
     pub file: String,

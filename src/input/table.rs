@@ -219,7 +219,7 @@ impl Table<'_> {
         };
         let commas = if self.commas.get() { "; numbers such as `0,5` were read as 0.5" } else { "" };
         let message = format!("the fields of this table are separated by {separator}{commas}");
-        findings.warning(self.place(1, Place::WHOLE_ROW), message, None);
+        findings.warning(MistakeCode::TableFormat, self.place(1, Place::WHOLE_ROW), message, None);
     }
 
     /// The line on which the last record ends, which for a record without line breaks is its line.

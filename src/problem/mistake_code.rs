@@ -1,10 +1,10 @@
-//! The kinds of mistakes a problem file can have, by the words that reports call them.
+//! The kinds of mistakes a problem file can have, and of warnings, by the words that reports call them.
 
 use std::fmt;
 
 macro_rules! codes {
     ($($variant:ident = $name:literal,)*) => {
-        /// What kind of mistake it is: `ribopt explain` says what each means, by its name.
+        /// What kind of mistake or warning it is: `ribopt explain` says what each means, by its name.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[allow(missing_docs)] // docs/mistakes.md explains each by its name
         pub enum MistakeCode {
@@ -76,6 +76,33 @@ codes! {
     Mechanism = "mechanism",
     Response = "response",
     Check = "check",
+    TooDense = "too-dense",
+    // Warnings: such a file is read.
+    TableFormat = "table-format",
+    StartMoved = "start-moved",
+    NothingChosen = "nothing-chosen",
+    AlwaysTrue = "always-true",
+    HiddenName = "hidden-name",
+    ChosenAtStart = "chosen-at-start",
+    OddFactor = "odd-factor",
+    MayVanish = "may-vanish",
+    MayCross = "may-cross",
+    TwoUnits = "two-units",
+    Unused = "unused",
+    TwinNodes = "twin-nodes",
+    DefaultHeight = "default-height",
+    ManyRows = "many-rows",
+    BeyondCode = "beyond-code",
+}
+
+impl MistakeCode {
+    /// The first of the warnings: those after it are warnings, too.
+    const FIRST_WARNING: MistakeCode = MistakeCode::TableFormat;
+
+    /// Whether a file that has it can be read all the same.
+    pub const fn is_warning(self) -> bool {
+        self as usize >= Self::FIRST_WARNING as usize
+    }
 }
 
 impl fmt::Display for MistakeCode {

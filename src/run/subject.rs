@@ -83,7 +83,7 @@ impl Subject {
         subject.dimensions = input.dimensions;
         subject.about.changes = changes.to_vec();
         subject.constants = input.constants;
-        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning: {text}"));
+        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning[{}]: {text}", MistakeCode::TwoUnits));
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
         Ok(subject)
     }
@@ -95,8 +95,9 @@ impl Subject {
     pub fn assemble(problem: Problem, file: &Path, sha256: String) -> Result<Subject, RunError> {
         let file = file.display().to_string();
         let too_dense = |error: AssemblyError| {
-            let mistake = Mistake { file: Some(file.clone()), ..Mistake::of_command(error.to_string()) };
-            RunError::Input(format!("mistake: {error}\n--> {file}"), vec![mistake])
+            let code = MistakeCode::TooDense.name();
+            let mistake = Mistake { file: Some(file.clone()), code: Some(code), ..Mistake::of_command(error.to_string()) };
+            RunError::Input(format!("mistake[{code}]: {error}\n--> {file}"), vec![mistake])
         };
         let formulation = Arc::new(formulate(problem).map_err(too_dense)?);
         let problem = formulation.model.problem();

@@ -42,8 +42,8 @@ impl Assembly<'_> {
         for (code, remark) in report.mistakes {
             self.findings.mistake(code, written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
-        for remark in report.warnings.into_iter().filter(|_| !self.quiet) {
-            self.findings.warning(written.part(remark.span.start, remark.span.end), remark.message, remark.help);
+        for (code, remark) in report.warnings.into_iter().filter(|_| !self.quiet) {
+            self.findings.warning(code, written.part(remark.span.start, remark.span.end), remark.message, remark.help);
         }
         self.quantities |= report.quantities;
         for column in report.used {

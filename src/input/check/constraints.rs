@@ -154,7 +154,7 @@ impl Assembly<'_> {
         if scope.members.is_empty() {
             let place = entry.name.as_ref().map_or(entry.place, |name| name.place);
             let message = format!("constraint `{name}` concerns nothing: no item is chosen");
-            self.findings.warning(place, message, "it is left out");
+            self.findings.warning(MistakeCode::NothingChosen, place, message, "it is left out");
             return None;
         }
         let rows = match (&entry.by, collection) {
@@ -177,7 +177,7 @@ impl Assembly<'_> {
             if !scope.members.iter().any(hit) {
                 let names = scope.members.iter().take(10_000).map(|&index| self.problem.item_name(scope.collection, index));
                 let help = did_you_mean(&pattern.text, names);
-                self.findings.warning(pattern.place, format!("pattern `{}` matches nothing", pattern.text), help);
+                self.findings.warning(MistakeCode::NothingChosen, pattern.place, format!("pattern `{}` matches nothing", pattern.text), help);
             }
         }
     }

@@ -40,6 +40,7 @@ impl Assembly<'_> {
             let message = format!("`{name}` of section `{section}`{more} may reach zero inside its bounds");
             let place = self.section_places[sections[0] as usize];
             self.findings.warning(
+                MistakeCode::MayVanish,
                 place,
                 message,
                 "give it a positive lower bound, or a linear constraint that keeps it positive",
@@ -63,8 +64,8 @@ impl Assembly<'_> {
             let help = "draw it without crossings, or give thinner walls: `clear` must stay positive";
             match at {
                 0 => self.findings.mistake(MistakeCode::ImpossibleSection, place, format!("section `{section}`: {reason}"), help),
-                1 => self.findings.warning(place, format!("section `{section}` at its start: {reason}"), help),
-                _ => self.findings.warning(place, format!("section `{section}` at its upper bounds: {reason}"), help),
+                1 => self.findings.warning(MistakeCode::MayCross, place, format!("section `{section}` at its start: {reason}"), help),
+                _ => self.findings.warning(MistakeCode::MayCross, place, format!("section `{section}` at its upper bounds: {reason}"), help),
             }
         }
     }

@@ -136,7 +136,7 @@ impl Assembly<'_> {
             None if self.quiet => {}
             None => {
                 let message = format!("constraint `{name}` has no variables and always holds");
-                self.findings.warning(written.place, message, "it is left out");
+                self.findings.warning(MistakeCode::AlwaysTrue, written.place, message, "it is left out");
             }
             Some(item) => {
                 let row = match item {

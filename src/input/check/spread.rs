@@ -210,7 +210,7 @@ impl Assembly<'_> {
             let stations = self.problem.structure.as_deref().map_or(1, |structure| structure.stations.len()).max(1);
             let message = format!("this constraint makes {rows} rows");
             let help = format!("`stations = 3` in [structure] would make {}", rows / stations * 3);
-            self.findings.warning(entry.place, message, help);
+            self.findings.warning(MistakeCode::ManyRows, entry.place, message, help);
         }
     }
 }

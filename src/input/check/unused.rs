@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::Assembly;
 use crate::expression::ast::Collection;
 use crate::input::source::Place;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::formula::What;
 use crate::problem::{Constraint, Formula};
 
@@ -26,13 +27,14 @@ impl Assembly<'_> {
         for (case, name) in (0u32..).zip(&structure.cases) {
             if !mentioned.contains(&case) && !combined.contains(&case) {
                 let message = format!("load case `{name}` is in no combination and no response");
-                self.findings.warning(self.case_place(case), message, "add it to a combination, or leave its loads out");
+                self.findings.warning(MistakeCode::Unused, self.case_place(case), message, "add it to a combination, or leave its loads out");
             }
         }
         for (at, combination) in structure.combinations.iter().enumerate() {
             if !mentioned.contains(&((structure.cases.len() + at) as u32)) {
                 let message = format!("combination `{}` is in no response: nothing is limited under it", combination.name);
                 self.findings.warning(
+                    MistakeCode::Unused,
                     self.combination_place(at),
                     message,
                     "name it in a requirement or under `cases`, or leave it out",
@@ -53,7 +55,7 @@ impl Assembly<'_> {
             let names: Vec<String> = idle.map(|(_, column)| format!("`{}`", column.name)).collect();
             if !names.is_empty() {
                 let message = format!("data of {word} nobody uses: {}", names.join(", "));
-                self.findings.warning(Place::Whole, message, None);
+                self.findings.warning(MistakeCode::Unused, Place::Whole, message, None);
             }
         }
     }

@@ -148,13 +148,13 @@ impl Assembly<'_> {
                 if moved <= NAMED {
                     let name = self.problem.variable_name(j);
                     let message = format!("the start of `{name}` lies outside its bounds: moved from {start} to {inside}");
-                    self.findings.warning(self.variable_place(j), message, None);
+                    self.findings.warning(MistakeCode::StartMoved, self.variable_place(j), message, None);
                 }
             }
         }
         if moved > NAMED {
             let message = format!("{} more starts outside their bounds were moved to the nearest point inside", moved - NAMED);
-            self.findings.warning(Place::Whole, message, None);
+            self.findings.warning(MistakeCode::StartMoved, Place::Whole, message, None);
         }
     }
 }

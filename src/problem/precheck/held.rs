@@ -26,11 +26,11 @@ impl Site<'_> {
                     1 => "add [supports]",
                     _ => "support it, or join it to the rest: ribs are joined where they share a node",
                 };
-                self.mistake(MistakeCode::Mechanism, about, format!("{whose} has no support"), help);
+                self.find(MistakeCode::Mechanism, about, format!("{whose} has no support"), help);
             } else {
                 let list = lacking.join(" and ");
                 let message = format!("nothing holds {whose} in {list}: it can slide");
-                self.mistake(
+                self.find(
                     MistakeCode::Mechanism,
                     about,
                     message,

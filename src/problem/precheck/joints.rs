@@ -33,7 +33,7 @@ impl Site<'_> {
         let verb = if members.len() == 1 { "releases its torque" } else { "release their torque" };
         let words = self.ribs_in_words(members.iter().copied());
         let message = format!("{} {words} {verb} at both ends: it can turn about itself", plural("rib", members.len()));
-        self.mistake(
+        self.find(
             MistakeCode::Mechanism,
             About::Member(first),
             message.replace("it can", pronoun(members.len())),
@@ -52,7 +52,7 @@ impl Site<'_> {
             let held = (0..3).all(|axis| moment[axis] == 0.0 || self.held[node as usize][3 + axis]);
             if !held && self.members_at[node as usize].iter().all(bar) {
                 let message = format!("a moment on node `{}`, where only bars end", self.node_name(node));
-                self.mistake(
+                self.find(
                     MistakeCode::Load,
                     About::Load(at as u32),
                     message,
@@ -101,7 +101,7 @@ impl Site<'_> {
                 _ => "the bars there lie in one line".to_owned(),
             };
             let message = format!("{word} {} can move in {way}: {lie}", self.nodes_in_words(&nodes));
-            self.mistake(
+            self.find(
                 MistakeCode::Mechanism,
                 About::Node(first),
                 message,
@@ -134,7 +134,7 @@ impl Site<'_> {
             in_words(axis),
             plural("rib", count)
         );
-        self.mistake(MistakeCode::Mechanism, About::Node(node), message, "join one of them rigidly, or hold the node's rotation");
+        self.find(MistakeCode::Mechanism, About::Node(node), message, "join one of them rigidly, or hold the node's rotation");
     }
 
     /// Adds the axes about which a member's end resists turning; false where an arm carries it.

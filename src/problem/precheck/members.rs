@@ -35,7 +35,7 @@ impl Site<'_> {
             let Some(up) = member.up else { continue };
             if Rule::Towards(up).is_parallel(self.along(at)) || up == [0.0; 3] {
                 let message = format!("`up` of rib `{}` points along the rib", self.rib_name(at));
-                self.mistake(
+                self.find(
                     MistakeCode::Coordinates,
                     About::Up(at),
                     message,
@@ -70,7 +70,7 @@ impl Site<'_> {
                 "{} {words} {is} within 3° of vertical without `up`: {whose} section's height points {rule}",
                 plural("rib", count)
             );
-            self.warning(About::Member(members[0]), message, "say where it points: up = [1, 0, 0]");
+            self.find(MistakeCode::DefaultHeight, About::Member(members[0]), message, "say where it points: up = [1, 0, 0]");
         }
     }
 
@@ -118,7 +118,7 @@ impl Site<'_> {
             (_, ["J"]) => "release the torque at one end, hinges = { end = [\"T\"] }, or choose another kind".to_owned(),
             _ => "choose another kind".to_owned(),
         };
-        self.mistake(MistakeCode::Material, About::Member(members[0]), message, help);
+        self.find(MistakeCode::Material, About::Member(members[0]), message, help);
     }
 
     /// Forms of the sections at a member's ends, by number.
@@ -190,7 +190,7 @@ impl Site<'_> {
             let helps = ["add G = …, or nu = …", "add density = …", "add alpha = …, such as 1.2e-5"];
             for ((absent, about, message), help) in said.into_iter().zip(helps) {
                 if let (true, Some(about)) = (absent, about) {
-                    self.mistake(MistakeCode::Material, about, message, help);
+                    self.find(MistakeCode::Material, about, message, help);
                 }
             }
         }
@@ -199,7 +199,7 @@ impl Site<'_> {
         {
             let help =
                 "add gravity = [0, 0, -9.81] to [structure], or [0, 0, -1] where `density` is a weight; in a plane two numbers";
-            self.mistake(MistakeCode::Load, About::Load(*first), "self-weight without `gravity`".to_owned(), help);
+            self.find(MistakeCode::Load, About::Load(*first), "self-weight without `gravity`".to_owned(), help);
         }
     }
 
@@ -214,6 +214,6 @@ impl Site<'_> {
         let (is, has) = if outside.len() == 1 { ("is", "has") } else { ("are", "have") };
         let words = super::listed(&named, outside.len());
         let message = format!("{} {words} {has} no nodes and {is} no part of the structure", plural("rib", outside.len()));
-        self.warning(About::Rib(outside[0]), message, "give `start` and `end`, unless this is meant");
+        self.find(MistakeCode::Unused, About::Rib(outside[0]), message, "give `start` and `end`, unless this is meant");
     }
 }

@@ -36,8 +36,8 @@ pub enum About {
 pub struct Finding {
     /// What it is about.
     pub about: About,
-    /// What kind of mistake it is, where the structure cannot be analysed; `None`: to be looked at.
-    pub code: Option<MistakeCode>,
+    /// What kind it is: a mistake where the structure cannot be analysed, a warning where it is to be looked at.
+    pub code: MistakeCode,
     /// What is wrong.
     pub message: String,
     /// What would be right.
@@ -80,12 +80,8 @@ pub fn findings(problem: &Problem) -> Vec<Finding> {
 }
 
 impl Site<'_> {
-    fn mistake(&mut self, code: MistakeCode, about: About, message: String, help: impl Into<String>) {
-        self.found.push(Finding { about, code: Some(code), message, help: help.into() });
-    }
-
-    fn warning(&mut self, about: About, message: String, help: impl Into<String>) {
-        self.found.push(Finding { about, code: None, message, help: help.into() });
+    fn find(&mut self, code: MistakeCode, about: About, message: String, help: impl Into<String>) {
+        self.found.push(Finding { about, code, message, help: help.into() });
     }
 
     fn node_name(&self, node: u32) -> &str {

@@ -29,27 +29,24 @@ impl Site<'_> {
             }
         }
         for (what, help, code) in [
-            ("is loaded, but no rib ends there", "let a rib start or end there, or load another node", Some(MistakeCode::Load)),
+            ("is loaded, but no rib ends there", "let a rib start or end there, or load another node", MistakeCode::Load),
             (
                 "is supported, but no rib ends there",
                 "let a rib start or end there, or support another node",
-                Some(MistakeCode::Support),
+                MistakeCode::Support,
             ),
-            ("is used by no rib", "leave it out, or let a rib start or end there", None),
+            ("is used by no rib", "leave it out, or let a rib start or end there", MistakeCode::Unused),
         ] {
             let concerned = |node: &u32| match (loaded[*node as usize], self.held[*node as usize].contains(&true)) {
                 (true, _) => what.starts_with("is loaded"),
                 (false, true) => what.starts_with("is supported"),
-                (false, false) => code.is_none(),
+                (false, false) => code == MistakeCode::Unused,
             };
             let nodes: Vec<u32> = idle.iter().copied().filter(concerned).collect();
             let Some(&first) = nodes.first() else { continue };
             let what = if nodes.len() == 1 { what.to_owned() } else { what.replacen("is ", "are ", 1) };
             let message = format!("{} {} {what}", plural("node", nodes.len()), self.nodes_in_words(&nodes));
-            match code {
-                Some(code) => self.mistake(code, About::Node(first), message, help),
-                None => self.warning(About::Node(first), message, help),
-            }
+            self.find(code, About::Node(first), message, help);
         }
     }
 
@@ -60,7 +57,7 @@ impl Site<'_> {
         let more = if pairs.len() > 1 { format!(" (and {} more)", plural_count(pairs.len() - 1)) } else { String::new() };
         let message = format!("nodes `{}` and `{}` are at one place{more}", self.node_name(first), self.node_name(second));
         let help = "ribs that end at different nodes are not joined: use one node, unless this is meant";
-        self.warning(About::Node(second), message, help);
+        self.find(MistakeCode::TwinNodes, About::Node(second), message, help);
     }
 
     /// Points go into boxes of twice the tolerance; what is within the tolerance lies in one of the boxes its corners touch.

@@ -90,7 +90,7 @@ impl Resolver<'_, '_> {
         };
         if scope.members.iter().any(varies) {
             let message = "a `where` over design variables is decided once, at the start".to_owned();
-            self.warning(ast.span, message, "choose by data and parameters");
+            self.warning(MistakeCode::ChosenAtStart, ast.span, message, "choose by data and parameters");
         }
         Some(formula)
     }

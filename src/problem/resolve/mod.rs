@@ -222,9 +222,9 @@ impl<'a, 'r> Resolver<'a, 'r> {
         None
     }
 
-    fn warning(&mut self, span: Span, message: String, help: &str) {
-        if self.report.warnings.iter().all(|remark| remark.message != message) {
-            self.report.warnings.push(Remark { span, message, help: Some(help.into()) });
+    fn warning(&mut self, code: MistakeCode, span: Span, message: String, help: &str) {
+        if self.report.warnings.iter().all(|(_, remark)| remark.message != message) {
+            self.report.warnings.push((code, Remark { span, message, help: Some(help.into()) }));
         }
     }
 

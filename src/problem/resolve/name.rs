@@ -128,7 +128,7 @@ impl<'a> Resolver<'a, '_> {
             && !self.is_the_same(entity, name)
         {
             let message = format!("`{name}` is the item's own here and hides the {} of this name", entity.word());
-            self.warning(span, message, "rename one of the two");
+            self.warning(MistakeCode::HiddenName, span, message, "rename one of the two");
         }
         Some(Some(found))
     }

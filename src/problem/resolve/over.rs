@@ -88,7 +88,7 @@ impl Resolver<'_, '_> {
         }
         // Of items resolved one by one some have none: the last of a row has nothing beyond it.
         if self.item.is_none() {
-            self.warning(span, "no item is chosen: the sum is 0".into(), "check the `where`");
+            self.warning(MistakeCode::NothingChosen, span, "no item is chosen: the sum is 0".into(), "check the `where`");
         }
         Some(Formula::Constant(0.0))
     }

@@ -43,7 +43,7 @@ impl Resolver<'_, '_> {
         };
         if let Some(name) = symbols.find(hidden) {
             let message = format!("`{name}` is a part of the unit here, not what has this name");
-            self.warning(span, message, "put blanks around the sign before it where the name is meant");
+            self.warning(MistakeCode::HiddenName, span, message, "put blanks around the sign before it where the name is meant");
         }
     }
 

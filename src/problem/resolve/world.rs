@@ -25,7 +25,7 @@ pub struct Report {
     /// Mistakes; where there is one, there is no formula.
     pub mistakes: Vec<(MistakeCode, Remark)>,
     /// Item names that hide a global one, and choices made at the start.
-    pub warnings: Vec<Remark>,
+    pub warnings: Vec<(MistakeCode, Remark)>,
     /// What responses left open.
     pub open: Open,
     /// Whether a number with a unit occurs.

@@ -9,7 +9,7 @@ use super::{FORMAT, write_value};
 /// A mistake of the command line or the problem file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mistake {
-    /// What `ribopt explain` explains it by, where it is one of reading.
+    /// What `ribopt explain` explains it by, where it is one of the problem file.
     pub code: Option<&'static str>,
     /// The file it is in.
     pub file: Option<String>,

@@ -205,7 +205,7 @@ impl Assembly<'_> {
             let message = format!("rib `{name}`{more} of {what} is tapered, and {clauses} for uniform members");
             let help = "every station is held by its own A, W and forces, with the critical forces of a uniform rib of either end's section, \
                         which is safe but no rule of the code; cut the rib into uniform ones, or use length = \"system\"";
-            self.findings.warning(place, message, help);
+            self.findings.warning(MistakeCode::BeyondCode, place, message, help);
         }
         let planar = self.problem.structure.as_deref().is_some_and(|structure| structure.plane != Plane::Space);
         if let (true, Code::En { en, .. }) = (planar, code)
@@ -220,7 +220,7 @@ impl Assembly<'_> {
         let stranger = |known: &[&str]| kinds.iter().copied().find(|kind| !known.contains(kind));
         if let Some(kind) = stranger(&DOUBLY_SYMMETRIC) {
             let message = format!("{what}: sections of kind {kind} may twist as they buckle, which is not checked");
-            self.findings.warning(place, message, "only buckling about the section's own axes x and y is");
+            self.findings.warning(MistakeCode::BeyondCode, place, message, "only buckling about the section's own axes x and y is");
         }
         let bending = if let Code::En { bending, .. } = code { bending.as_ref() } else { None };
         let Some(bending) = bending else { return true };

@@ -28,7 +28,7 @@ impl Assembly<'_> {
         {
             let message = format!("check `{}` does not say what webs carry: they are taken as compressed throughout", check.name);
             let help = "write web = \"compression\", or web = \"bending\" where the axial force is small";
-            self.findings.warning(entry.place, message, help);
+            self.findings.warning(MistakeCode::BeyondCode, entry.place, message, help);
         }
         // By section and strength: the rows of Table 5.2 hold for all ribs alike.
         let mut known: HashSet<(u32, String)> = HashSet::new();
@@ -99,7 +99,7 @@ impl Assembly<'_> {
                 format!("check `{}`: limits of width over thickness of sections of kind {kind} are not checked", check.name);
             let help =
                 "they are of h-beam, box, tee (EN 1993-1-1) and tube; see otherwise to it that these do not buckle locally";
-            self.findings.warning(entry.place, message, help);
+            self.findings.warning(MistakeCode::BeyondCode, entry.place, message, help);
             return None;
         };
         Some(parts.into_iter().map(|(part, require)| (format!("{word} {part}"), require)).collect())

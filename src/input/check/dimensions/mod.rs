@@ -79,7 +79,7 @@ impl Assembly<'_> {
                 self.findings.mistake(MistakeCode::Units, one.place, one.message, one.help);
             }
             for one in odd {
-                self.findings.warning(one.place, one.message, one.help);
+                self.findings.warning(MistakeCode::OddFactor, one.place, one.message, one.help);
             }
         } else {
             let sentence = |one: walk::Disagreement| format!("{}: {}", self.spoken(one.place), one.message);

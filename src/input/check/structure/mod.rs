@@ -112,9 +112,9 @@ impl Assembly<'_> {
         }
         for finding in precheck::findings(&self.problem) {
             let place = self.place_of(finding.about).or(whole).unwrap_or(Place::Whole);
-            match finding.code {
-                Some(code) => self.findings.mistake(code, place, finding.message, finding.help),
-                None => self.findings.warning(place, finding.message, finding.help),
+            match finding.code.is_warning() {
+                false => self.findings.mistake(finding.code, place, finding.message, finding.help),
+                true => self.findings.warning(finding.code, place, finding.message, finding.help),
             }
         }
     }
