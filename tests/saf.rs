@@ -249,7 +249,7 @@ fn what_the_format_has_no_word_for_is_refused_with_a_remedy() {
     for (problem, words) in [
         (FRAME.replace("[combinations]", pretension), "give `temperature` in its place"),
         (taper, "without `ribs` and gravity along -z"),
-        (FRAME.replace("units = { length = \"mm\", force = \"N\", mass = \"t\" }\n", ""), "add it to `units`"),
+        (FRAME.replace("units = { length = \"mm\", force = \"N\", mass = \"t\" }\n", ""), "to `units`"),
     ] {
         fs::write(&path, problem).unwrap();
         let output = ribopt(folder.path(), &["solve", "frame.toml", "--quiet", "--saf", "frame.xlsx"]);

@@ -261,12 +261,15 @@ fn none(free: &Outcome, found: &Found) -> Chosen {
         outcome.message =
             "No choice of sizes from the lists meets all limits: this is proved. The point shown has its sizes between rows."
                 .into();
-        outcome.remedy = Some("add larger sizes to the lists, or relax a limit".into());
+        outcome.remedy = Some("add sizes near those of the point shown, which meets all limits, to the lists".into());
     } else {
         (outcome.status, outcome.scope) = (Status::Uncertified, Extent::Local);
         outcome.message =
             "No choice of sizes that was tried meets all limits. The point shown has its sizes between rows.".into();
-        outcome.remedy = Some("add larger sizes to the lists, or give more time with --max-seconds".into());
+        outcome.remedy = Some(
+            "add sizes near those of the point shown, which meets all limits, to the lists, or give more time with --max-seconds"
+                .into(),
+        );
     }
     Chosen { rows: Vec::new(), outcome, subject: None }
 }

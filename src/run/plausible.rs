@@ -11,6 +11,9 @@ const SLIMMEST: f64 = 1e4;
 /// Dimensions that are no lengths.
 const NO_LENGTHS: [&str; 4] = ["r", "scale", "scale_x", "scale_y"];
 
+/// The kind whose dimensions are areas, moments and moduli.
+const NUMBERS_ALONE: &str = "general";
+
 /// In words, one sentence at the most of each kind.
 pub(super) fn warnings(problem: &Problem) -> Vec<String> {
     let Some(longest) = longest_line(problem).filter(|length| length.is_finite() && *length > 0.0) else { return Vec::new() };
@@ -41,6 +44,10 @@ impl Lengths {
         let mut all_known = true;
         for section in 0..problem.sections.names.len() {
             let form = sections::form(problem.sections.form[section]);
+            if form.kind == NUMBERS_ALONE {
+                all_known = false;
+                continue;
+            }
             for (name, dimension) in form.dimensions.iter().zip(problem.dimensions(section)) {
                 if NO_LENGTHS.contains(name) {
                     all_known &= *name == "r";

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use num_traits::{CheckedAdd, CheckedMul, Zero};
+
 use super::ratio::Ratio;
 
 /// length^a · force^b · time^c · temperature^d. Mass is force·time²/length.
@@ -31,7 +33,7 @@ impl Dimension {
     /// By whole exponents of length, force, time and temperature.
     pub const fn whole(powers: [i64; 4]) -> Dimension {
         let [a, b, c, d] = powers;
-        Dimension([Ratio::whole(a), Ratio::whole(b), Ratio::whole(c), Ratio::whole(d)])
+        Dimension([Ratio::new_raw(a, 1), Ratio::new_raw(b, 1), Ratio::new_raw(c, 1), Ratio::new_raw(d, 1)])
     }
 
     /// The exponents of length, force, time and temperature.
@@ -48,7 +50,7 @@ impl Dimension {
     pub fn times(self, other: Dimension) -> Option<Dimension> {
         let mut powers = self.0;
         for (power, other) in powers.iter_mut().zip(other.0) {
-            *power = power.plus(other)?;
+            *power = power.checked_add(&other)?;
         }
         Some(Dimension(powers))
     }
@@ -57,7 +59,7 @@ impl Dimension {
     pub fn power(self, exponent: Ratio) -> Option<Dimension> {
         let mut powers = self.0;
         for power in &mut powers {
-            *power = power.times(exponent)?;
+            *power = power.checked_mul(&exponent)?;
         }
         Some(Dimension(powers))
     }
@@ -65,8 +67,8 @@ impl Dimension {
     /// As factors: the given names with exponents, mass in the place of force·time²/length where that is shorter.
     fn factors(self) -> Vec<(&'static str, Ratio)> {
         let [length, force, time, temperature] = self.0;
-        let is_mass = !force.is_zero() && force.times(Ratio::whole(2)) == Some(time);
-        match length.plus(force).filter(|_| is_mass) {
+        let is_mass = !force.is_zero() && force.checked_mul(&Ratio::from_integer(2)) == Some(time);
+        match length.checked_add(&force).filter(|_| is_mass) {
             Some(length) => vec![("mass", force), ("length", length), ("temperature", temperature)],
             None => NAMES.into_iter().zip([length, force, time, temperature]).collect(),
         }
@@ -76,7 +78,7 @@ impl Dimension {
     pub fn written(self, word: impl Fn(&'static str) -> String) -> String {
         let factors: Vec<_> = self.factors().into_iter().filter(|(_, power)| !power.is_zero()).collect();
         let part = |(name, power): &(&'static str, Ratio)| {
-            let (top, bottom) = power.parts();
+            let (top, bottom) = (*power.numer(), *power.denom());
             let raised = match (top.abs(), bottom) {
                 (1, 1) => String::new(),
                 (2, 1) => "²".to_owned(),
@@ -87,8 +89,8 @@ impl Dimension {
             };
             format!("{}{raised}", word(name))
         };
-        let over: Vec<String> = factors.iter().filter(|(_, power)| power.parts().0 > 0).map(part).collect();
-        let under: Vec<String> = factors.iter().filter(|(_, power)| power.parts().0 < 0).map(part).collect();
+        let over: Vec<String> = factors.iter().filter(|(_, power)| *power.numer() > 0).map(part).collect();
+        let under: Vec<String> = factors.iter().filter(|(_, power)| *power.numer() < 0).map(part).collect();
         let over = if over.is_empty() && !under.is_empty() { "1".to_owned() } else { over.join("·") };
         match under.len() {
             0 => over,
@@ -119,7 +121,7 @@ mod tests {
         assert_eq!(Dimension::whole([-4, 1, 2, 0]).to_string(), "mass/length³");
         assert_eq!(Dimension::whole([0, 0, -1, 0]).to_string(), "1/time");
         assert_eq!(Dimension::NONE.to_string(), "a plain number");
-        let root = Dimension::LENGTH.power(Ratio::new(1, 2).unwrap()).unwrap();
+        let root = Dimension::LENGTH.power(Ratio::new(1, 2)).unwrap();
         assert_eq!(root.to_string(), "length^(1/2)");
         assert_eq!(root.times(root), Some(Dimension::LENGTH));
     }

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeMap;
 
+use num_traits::{CheckedAdd, CheckedMul, CheckedSub, Zero};
+
 use super::dimension::Dimension;
 use super::ratio::Ratio;
 
@@ -35,8 +37,8 @@ impl Form {
         let known = self.known.times(other.known.power(power)?)?;
         let mut powers = self.powers.clone();
         for (unknown, exponent) in &other.powers {
-            let raised = exponent.times(power)?;
-            let sum = powers.get(unknown).map_or(Some(raised), |own| own.plus(raised))?;
+            let raised = exponent.checked_mul(&power)?;
+            let sum = powers.get(unknown).map_or(Some(raised), |own| own.checked_add(&raised))?;
             if sum.is_zero() {
                 powers.remove(unknown)
             } else {
@@ -80,14 +82,14 @@ impl Inference {
     /// The dimension of left/right.
     pub fn equal(&mut self, left: &Form, right: &Form) -> Result<(), Dimension> {
         // Exponents that do not fit belong to no formula of this world: nothing is said of them.
-        let difference = left.times(right, Ratio::whole(-1)).and_then(|form| self.reduced(&form));
+        let difference = left.times(right, Ratio::from_integer(-1)).and_then(|form| self.reduced(&form));
         let Some(mut form) = difference else { return Ok(()) };
         let Some((unknown, power)) = form.powers.pop_last() else {
             return if form.known.is_none() { Ok(()) } else { Err(form.known) };
         };
         // power·unknown + rest = 0
-        let solved =
-            power.negative().and_then(Ratio::inverse).and_then(|factor| Form::from(Dimension::NONE).times(&form, factor));
+        let factor = Ratio::ZERO.checked_sub(&power).filter(|power| !power.is_zero()).map(|power| power.recip());
+        let solved = factor.and_then(|factor| Form::from(Dimension::NONE).times(&form, factor));
         if let Some(solved) = solved {
             self.solved.insert(unknown, solved);
         }
@@ -103,7 +105,7 @@ mod tests {
     fn unknown_dimensions_follow_from_equations() {
         let mut inference = Inference::default();
         let (force, area, stress) = (inference.unknown(), inference.unknown(), inference.unknown());
-        let minus = Ratio::whole(-1);
+        let minus = Ratio::from_integer(-1);
         // force/area = stress; area = length²; stress·length = 2 forces per length
         inference.equal(&force.times(&area, minus).unwrap(), &stress).unwrap();
         inference.equal(&area, &Dimension::whole([2, 0, 0, 0]).into()).unwrap();
@@ -116,9 +118,9 @@ mod tests {
     fn roots_are_over_the_rationals() {
         let mut inference = Inference::default();
         let side = inference.unknown();
-        let cube = Form::from(Dimension::NONE).times(&side, Ratio::whole(3)).unwrap();
+        let cube = Form::from(Dimension::NONE).times(&side, Ratio::from_integer(3)).unwrap();
         inference.equal(&cube, &Dimension::LENGTH.into()).unwrap();
-        let third = Dimension::LENGTH.power(Ratio::new(1, 3).unwrap()).unwrap();
+        let third = Dimension::LENGTH.power(Ratio::new(1, 3)).unwrap();
         assert_eq!(inference.reduced(&side).unwrap().dimension(), Some(third));
     }
 }

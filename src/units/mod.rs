@@ -11,7 +11,7 @@ mod system;
 mod unit;
 
 pub use dimension::Dimension;
-pub use ratio::Ratio;
+pub use ratio::{Ratio, meant_by};
 pub use shown::{KINDS as SHOWN_KINDS, Label, Shown};
 pub use system::System;
 pub use unit::{Unit, UnitError, scan};

@@ -1,5 +1,7 @@
 //! The base units of a file: one length, one force, one time; mass follows from them.
 
+use num_traits::Zero;
+
 use super::dimension::Dimension;
 use super::ratio::Ratio;
 use super::unit::{Unit, scan};
@@ -11,6 +13,8 @@ pub struct System {
     base: [Option<(String, Unit)>; 4],
     /// The unit of mass, where one is given.
     mass: Option<(String, Unit)>,
+    /// Labels of base units that are no units known here, by their keys.
+    strange: Vec<(&'static str, String)>,
 }
 
 /// The base units by their keys in `units`, with what each measures.
@@ -40,7 +44,9 @@ impl System {
             }
         }
         let mass = unit("mass", Dimension::MASS);
-        let mut system = System { base, mass };
+        let strange = (0..BASE.len()).filter(|&at| base[at].is_none());
+        let strange = strange.filter_map(|at| Some((BASE[at].0, labelled(BASE[at].0)?.to_owned()))).collect();
+        let mut system = System { base, mass, strange };
         if labelled("force").is_none() {
             system.base[1] = system.force_of_mass();
         }
@@ -50,7 +56,7 @@ impl System {
     /// mass·length/time²
     fn force_of_mass(&self) -> Option<(String, Unit)> {
         let (mass, length, time) = (self.mass.as_ref()?, self.base[0].as_ref()?, self.base[2].as_ref()?);
-        let unit = mass.1.times(length.1)?.times(time.1.power(Ratio::whole(-2))?)?;
+        let unit = mass.1.times(length.1)?.times(time.1.power(Ratio::from_integer(-2))?)?;
         Some((format!("{}·{}/{}²", mass.0, length.0, time.0), unit))
     }
 
@@ -70,6 +76,21 @@ impl System {
         Ok(unit)
     }
 
+    /// What is wrong where the unit of a key is not known, and the remedy.
+    pub fn missing(&self, key: &str) -> (String, String) {
+        let example =
+            BASE.iter().zip(["m", "kN", "s", "K"]).find(|((known, _), _)| *known == key).map_or("m", |(_, symbol)| symbol);
+        match self.strange.iter().find(|(known, _)| *known == key) {
+            Some((_, label)) => {
+                (format!("`{label}` is no unit of {key} known here"), format!("write {key} = \"{example}\" in `units`"))
+            }
+            None => {
+                let message = format!("the file does not say in which unit of {key} its numbers are");
+                (message, format!("add {key} = \"{example}\" to `units`"))
+            }
+        }
+    }
+
     /// So many of a unit, in the file's own.
     ///
     /// # Errors
@@ -82,7 +103,7 @@ impl System {
     /// assert_eq!(system.own(7.85, Unit::parse("g/cm^3").unwrap()), Ok(7.85));
     /// ```
     pub fn own(&self, value: f64, unit: Unit) -> Result<f64, &'static str> {
-        let own = self.unit(unit.dimension())?.power(Ratio::whole(-1));
+        let own = self.unit(unit.dimension())?.power(Ratio::from_integer(-1));
         Ok(own.and_then(|own| unit.times(own)).map_or(f64::NAN, |factor| factor.of(value)))
     }
 
@@ -92,7 +113,7 @@ impl System {
     /// The key in `units` that is missing.
     pub fn shown(&self, value: f64, unit: Unit) -> Result<f64, &'static str> {
         let own = self.unit(unit.dimension())?;
-        let factor = unit.power(Ratio::whole(-1)).and_then(|under| own.times(under));
+        let factor = unit.power(Ratio::from_integer(-1)).and_then(|under| own.times(under));
         Ok(factor.map_or(f64::NAN, |factor| factor.of(value)))
     }
 

@@ -112,12 +112,12 @@ impl Unit {
     /// A power.
     pub(super) fn power(self, exponent: Ratio) -> Option<Unit> {
         let dimension = self.dimension.power(exponent)?;
-        let raised = |value: f64| match exponent.parts() {
+        let raised = |value: f64| match (*exponent.numer(), *exponent.denom()) {
             (top, 1) if top.abs() <= 64 => value.powi(top.unsigned_abs() as i32),
             (top, bottom) => value.powf(top.unsigned_abs() as f64 / bottom as f64),
         };
         let (over, under) = (raised(self.over), raised(self.under));
-        Some(if exponent.parts().0 < 0 { Unit { over: under, under: over, dimension } } else { Unit { over, under, dimension } })
+        Some(if *exponent.numer() < 0 { Unit { over: under, under: over, dimension } } else { Unit { over, under, dimension } })
     }
 
     /// So many of this unit, in SI units.
@@ -167,7 +167,7 @@ pub fn scan(text: &str) -> Option<Result<(usize, Unit), UnitError>> {
     if text[at..].starts_with('/') {
         let divisor = if text[at + 1..].starts_with('(') { bracket(text, at + 2) } else { factor(text, at + 1) };
         if let Some((end, under)) = divisor {
-            unit = unit.times(under.power(Ratio::whole(-1))?)?;
+            unit = unit.times(under.power(Ratio::from_integer(-1))?)?;
             at = end;
             let again = text[at..].starts_with(['/', '*', '·']);
             let next = text[at..].chars().next().map_or(0, char::len_utf8);
@@ -211,14 +211,14 @@ fn factor(text: &str, from: usize) -> Option<(usize, Unit)> {
 fn exponent(text: &str) -> (usize, Ratio) {
     for (sign, power) in [("²", 2), ("³", 3), ("⁴", 4)] {
         if text.starts_with(sign) {
-            return (sign.len(), Ratio::whole(power));
+            return (sign.len(), Ratio::from_integer(power));
         }
     }
     let Some(rest) = text.strip_prefix('^') else { return (0, Ratio::ONE) };
     let sign = usize::from(rest.starts_with('-'));
     let digits = rest[sign..].bytes().take_while(u8::is_ascii_digit).count();
     match rest[..sign + digits].parse::<i64>() {
-        Ok(power) if digits > 0 && power.abs() <= 12 => (1 + sign + digits, Ratio::whole(power)),
+        Ok(power) if digits > 0 && power.abs() <= 12 => (1 + sign + digits, Ratio::from_integer(power)),
         _ => (0, Ratio::ONE),
     }
 }

@@ -177,7 +177,12 @@ impl Assembly<'_> {
             if !scope.members.iter().any(hit) {
                 let names = scope.members.iter().take(10_000).map(|&index| self.problem.item_name(scope.collection, index));
                 let help = did_you_mean(&pattern.text, names);
-                self.findings.warning(MistakeCode::NothingChosen, pattern.place, format!("pattern `{}` matches nothing", pattern.text), help);
+                self.findings.warning(
+                    MistakeCode::NothingChosen,
+                    pattern.place,
+                    format!("pattern `{}` matches nothing", pattern.text),
+                    help,
+                );
             }
         }
     }

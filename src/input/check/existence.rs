@@ -64,8 +64,18 @@ impl Assembly<'_> {
             let help = "draw it without crossings, or give thinner walls: `clear` must stay positive";
             match at {
                 0 => self.findings.mistake(MistakeCode::ImpossibleSection, place, format!("section `{section}`: {reason}"), help),
-                1 => self.findings.warning(MistakeCode::MayCross, place, format!("section `{section}` at its start: {reason}"), help),
-                _ => self.findings.warning(MistakeCode::MayCross, place, format!("section `{section}` at its upper bounds: {reason}"), help),
+                1 => self.findings.warning(
+                    MistakeCode::MayCross,
+                    place,
+                    format!("section `{section}` at its start: {reason}"),
+                    help,
+                ),
+                _ => self.findings.warning(
+                    MistakeCode::MayCross,
+                    place,
+                    format!("section `{section}` at its upper bounds: {reason}"),
+                    help,
+                ),
             }
         }
     }

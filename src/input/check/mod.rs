@@ -1,5 +1,6 @@
 //! From the file as declared to the checked problem: names looked up, numbers computed, sizes compared.
 
+mod catalogues;
 mod checks;
 mod constants;
 mod constraints;
@@ -79,9 +80,9 @@ pub(super) struct Assembly<'a> {
     /// Variables that take their values from lists.
     listings: Vec<(u32, listing::Listing)>,
     /// Catalogues by their names.
-    catalogues: HashMap<String, Option<Arc<lists::Catalogue>>>,
+    catalogues: HashMap<String, Option<Arc<catalogues::Catalogue>>>,
     /// Sections that are rows of a catalogue.
-    from_catalogues: Vec<(u32, Arc<lists::Catalogue>)>,
+    from_catalogues: Vec<(u32, Arc<catalogues::Catalogue>)>,
     /// What the file's numbers are in.
     units: System,
     /// Whether a number with a unit was met.

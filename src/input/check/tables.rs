@@ -31,6 +31,7 @@ impl Assembly<'_> {
 
     fn section_table(&mut self, written: &Written, tables: &mut Tables<'_>) {
         // Until the columns are known.
+        let before = (self.without.sections, self.without.table);
         (self.without.sections, self.without.table) = (true, true);
         let Some(mut table) = tables.open(written, &mut self.findings) else { return };
         self.columns_of(&table, Some(Collection::Sections));
@@ -39,8 +40,8 @@ impl Assembly<'_> {
             self.section_row(&row, &columns);
         }
         table.say_how(&mut self.findings);
-        self.without.sections = table.ragged;
-        self.without.table = table.ragged && self.problem.sections.names.is_empty();
+        self.without.sections = before.0 || table.ragged;
+        self.without.table = before.1 || (table.ragged && self.problem.sections.names.is_empty());
     }
 
     fn section_row(&mut self, row: &Row, columns: &SectionColumns) {

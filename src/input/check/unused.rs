@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::Assembly;
 use crate::expression::ast::Collection;
 use crate::input::source::Place;
-use crate::problem::mistake_code::MistakeCode;
 use crate::problem::formula::What;
+use crate::problem::mistake_code::MistakeCode;
 use crate::problem::{Constraint, Formula};
 
 impl Assembly<'_> {
@@ -27,7 +27,12 @@ impl Assembly<'_> {
         for (case, name) in (0u32..).zip(&structure.cases) {
             if !mentioned.contains(&case) && !combined.contains(&case) {
                 let message = format!("load case `{name}` is in no combination and no response");
-                self.findings.warning(MistakeCode::Unused, self.case_place(case), message, "add it to a combination, or leave its loads out");
+                self.findings.warning(
+                    MistakeCode::Unused,
+                    self.case_place(case),
+                    message,
+                    "add it to a combination, or leave its loads out",
+                );
             }
         }
         for (at, combination) in structure.combinations.iter().enumerate() {

@@ -12,11 +12,7 @@ pub(super) fn show(mut fields: Fields, reader: &mut Reader) -> Vec<(Unit, String
             if unit.dimension() != dimension {
                 return Err((format!("`{}` is no unit of {kind}", written.text), format!("expected a unit of {dimension}")));
             }
-            let missing = |key| {
-                let message = format!("the file does not say in which unit of {key} its numbers are");
-                (message, format!("add {key} = \"…\" to `units`"))
-            };
-            reader.units.unit(dimension).map(|_| unit).map_err(missing)
+            reader.units.unit(dimension).map(|_| unit).map_err(|key| reader.units.missing(key))
         });
         match unit {
             Ok(unit) => wanted.push((unit, written.text)),

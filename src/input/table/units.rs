@@ -14,13 +14,7 @@ impl Table<'_> {
             let Some((name, rest)) = self.headers[at].split_once(" [") else { continue };
             let Some(text) = rest.strip_suffix(']') else { continue };
             let unit = Unit::parse(text).map_err(|error| (error.message, error.help));
-            let own = unit.and_then(|unit| {
-                let missing = |key| {
-                    let message = format!("the file does not say in which unit of {key} its numbers are");
-                    (message, format!("add {key} = \"…\" to `units` of the problem file"))
-                };
-                system.own(1.0, unit).map(|one| (unit, one)).map_err(missing)
-            });
+            let own = unit.and_then(|unit| system.own(1.0, unit).map(|one| (unit, one)).map_err(|key| system.missing(key)));
             match own {
                 Ok(own) => self.units[at] = Some(own),
                 Err((message, help)) => findings.mistake(MistakeCode::Units, place, message, help),

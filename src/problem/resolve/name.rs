@@ -223,7 +223,7 @@ impl<'a> Resolver<'a, '_> {
                 Some("numbers and parameters may occur here".into()),
             );
         }
-        let help = "numbers, parameters, variables and definitions made of these may occur here";
+        let help = "numbers, parameters, variables and definitions made of these, but no sequences, may occur here";
         self.mistake(
             MistakeCode::NotConstant,
             span,

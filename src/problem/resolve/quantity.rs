@@ -26,10 +26,8 @@ impl Resolver<'_, '_> {
                 Some("choose other base units".into()),
             ),
             Err(key) => {
-                let message = format!("the file does not say in which unit of {key} its numbers are");
-                let example = if key == "force" { "kN" } else { "m" };
-                let help = format!("add {key} = \"{example}\" to `units`: this is {}", unit.dimension());
-                self.mistake(MistakeCode::Units, span, message, Some(help))
+                let (message, help) = self.world.units.missing(key);
+                self.mistake(MistakeCode::Units, span, message, Some(format!("{help}: this is {}", unit.dimension())))
             }
         }
     }

@@ -11,10 +11,11 @@ impl Converter<'_> {
     /// A base unit that is not given.
     pub fn to(&self, value: f64, symbol: &str) -> Result<f64, RunError> {
         let told = Unit::parse(symbol).map_err(|error| error.message).and_then(|unit| {
-            self.0.shown(value, unit).map_err(|key| format!("the file does not say in which unit of {key} its numbers are"))
+            self.0.shown(value, unit).map_err(|key| {
+                let (message, help) = self.0.missing(key);
+                format!("{message}; {help}")
+            })
         });
-        told.map_err(|cause| {
-            RunError::Choice(format!("no SAF file: {cause}; add it to `units`, such as length = \"m\", force = \"kN\""))
-        })
+        told.map_err(|cause| RunError::Choice(format!("no SAF file: {cause}")))
     }
 }

@@ -220,7 +220,12 @@ impl Assembly<'_> {
         let stranger = |known: &[&str]| kinds.iter().copied().find(|kind| !known.contains(kind));
         if let Some(kind) = stranger(&DOUBLY_SYMMETRIC) {
             let message = format!("{what}: sections of kind {kind} may twist as they buckle, which is not checked");
-            self.findings.warning(MistakeCode::BeyondCode, place, message, "only buckling about the section's own axes x and y is");
+            self.findings.warning(
+                MistakeCode::BeyondCode,
+                place,
+                message,
+                "only buckling about the section's own axes x and y is",
+            );
         }
         let bending = if let Code::En { bending, .. } = code { bending.as_ref() } else { None };
         let Some(bending) = bending else { return true };

@@ -182,7 +182,7 @@ impl Walk<'_, '_> {
             "quadratic" => {
                 let forms: Vec<Form> = arguments.iter().map(|part| self.expression(part, written, scope)).collect();
                 let [matrix, vector] = &forms[..] else { return self.inference.unknown() };
-                return matrix.times(vector, Ratio::whole(2)).unwrap_or_else(|| self.inference.unknown());
+                return matrix.times(vector, Ratio::from_integer(2)).unwrap_or_else(|| self.inference.unknown());
             }
             _ => return self.inference.unknown(),
         };

@@ -11,7 +11,7 @@ use crate::problem::Formula;
 use crate::problem::names::Entity;
 use crate::problem::resolve::Value;
 use crate::units::inference::{Form, Inference};
-use crate::units::{Dimension, Ratio};
+use crate::units::{Dimension, Ratio, meant_by};
 
 /// Where names are looked up: the items whose own names hold, and the dimension whose expression this is.
 #[derive(Clone, Copy, Default)]
@@ -206,7 +206,7 @@ impl<'a, 's> Walk<'a, 's> {
         let form = self.expression(operand, written, scope);
         match op {
             Unary::Negate | Unary::Abs => form,
-            Unary::Sqrt => self.raised(&form, Ratio::new(1, 2)),
+            Unary::Sqrt => self.raised(&form, Some(Ratio::new(1, 2))),
             _ => {
                 self.needed(written, operand.span, &form, &Dimension::NONE.into(), "an argument of a function");
                 Dimension::NONE.into()
@@ -227,7 +227,7 @@ impl<'a, 's> Walk<'a, 's> {
                         self.factors.push((form.clone(), written.part(side.span.start, side.span.end)));
                     }
                 }
-                let power = if op == Binary::Multiply { Ratio::ONE } else { Ratio::whole(-1) };
+                let power = if op == Binary::Multiply { Ratio::ONE } else { Ratio::from_integer(-1) };
                 first.times(&second, power).unwrap_or_else(|| self.inference.unknown())
             }
             Binary::Atan2 => {
@@ -245,7 +245,7 @@ impl<'a, 's> Walk<'a, 's> {
 
     /// A power: its exponent is a plain number, and a constant unless the base is one, too.
     fn power(&mut self, base: Form, [left, right]: [&Ast; 2], written: &Written, scope: Scope) -> Form {
-        if let Some(exponent) = self.constant(right).and_then(Ratio::of) {
+        if let Some(exponent) = self.constant(right).and_then(meant_by) {
             return self.raised(&base, Some(exponent));
         }
         let exponent = self.expression(right, written, scope);
