@@ -55,13 +55,13 @@ pub fn run(arguments: &Solve) -> Result<u8, Failure> {
     if let Some(network) = network {
         draw(arguments, &subject, &solved, &network)?;
     }
-    workbooks(arguments, &subject, &solved)?;
     if arguments.report {
         let written = report(&[solved.folder().to_path_buf()], None)?;
         if !(arguments.json || arguments.quiet) {
             output::print(|out| writeln!(out, "report: {}", written.display()))?;
         }
     }
+    workbooks(arguments, &subject, &solved)?;
     Ok(solved.outcome.exit_code())
 }
 
@@ -70,6 +70,13 @@ fn inputs(arguments: &Solve, subject: &Subject) -> Result<Inputs, RunError> {
     let mut inputs = subject.inputs.clone();
     arguments.start.iter().for_each(|start| inputs.add(start));
     inputs.add(&arguments.file.with_file_name(network::GEOMETRY));
+    if arguments.schedule.is_some() && subject.problem().ribs.names.is_empty() {
+        return Err(RunError::Choice("a schedule lists ribs, and there are none: leave --schedule out".into()));
+    }
+    if arguments.saf.is_some() && subject.problem().structure.is_none() {
+        let message = "no SAF file: there is no structure; ribs with `start` and `end` make one, or leave --saf out";
+        return Err(RunError::Choice(message.into()));
+    }
     for out in arguments.schedule.iter().chain(&arguments.saf) {
         if out.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("xlsx")) {
             return Err(RunError::Choice(format!("{}: this is to be a workbook, which ends in .xlsx", out.display())));

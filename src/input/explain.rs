@@ -19,10 +19,18 @@ const PAGE: &str = include_str!("../../docs/mistakes.md");
 /// ```
 pub fn explain(code: Option<&str>) -> Result<String, String> {
     let Some(wanted) = code else {
-        return Ok(MistakeCode::ALL.iter().map(|code| format!("{:18} {}\n", code.name(), first_sentence(code.name()))).collect());
+        let line = |code: &MistakeCode| {
+            let kind = if code.is_warning() { " (a warning)" } else { "" };
+            format!("{:18} {}{kind}\n", code.name(), first_sentence(code.name()))
+        };
+        return Ok(MistakeCode::ALL.iter().map(line).collect());
     };
     match part(wanted) {
-        Some(text) => Ok(format!("{wanted}\n\n{}\n", text.trim())),
+        Some(text) => {
+            let is_warning = MistakeCode::ALL.iter().any(|code| code.name() == wanted && code.is_warning());
+            let title = if is_warning { format!("{wanted}: a warning") } else { wanted.to_owned() };
+            Ok(format!("{title}\n\n{}\n", text.trim()))
+        }
         None => {
             let names = || MistakeCode::ALL.iter().map(|code| code.name());
             let help = did_you_mean(wanted, names()).unwrap_or_else(|| "`ribopt explain` lists them".to_owned());

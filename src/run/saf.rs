@@ -29,7 +29,7 @@ pub fn saf(subject: &Subject, solved: &Solved, out: &Path) -> Result<(), RunErro
     let subject = solved.judged(subject);
     let (problem, x) = (subject.problem(), solved.outcome.x.as_slice());
     let (Some(structure), Some(statics)) = (problem.structure.as_deref(), problem.statics.as_deref()) else {
-        return Err(RunError::Choice("no SAF file: there is no structure; ribs with `start` and `end` make one".into()));
+        return Err(RunError::Choice("no SAF file: there is no structure".into()));
     };
     let units = Converter(&solved.about.shown.system);
     let placed = placed(problem, structure, statics, x);

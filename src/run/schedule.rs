@@ -12,12 +12,9 @@ use crate::report::sheets;
 /// Writes the schedule of ribs.
 ///
 /// # Errors
-/// No ribs, or more than a sheet has rows; a volume without a value; a file that cannot be written.
+/// More ribs than a sheet has rows; a volume without a value; a file that cannot be written.
 pub fn schedule(subject: &Subject, solved: &Solved, out: &Path) -> Result<(), RunError> {
     let (problem, x) = (solved.judged(subject).problem(), solved.outcome.x.as_slice());
-    if problem.ribs.names.is_empty() {
-        return Err(RunError::Choice("a schedule lists ribs, and there are none".into()));
-    }
     if problem.ribs.names.len().max(problem.sections.names.len()) > MOST_ROWS {
         return Err(RunError::Choice(format!("a sheet has {MOST_ROWS} rows at most: use volumes.csv and sizes.csv")));
     }
