@@ -83,7 +83,8 @@ impl Subject {
         subject.dimensions = input.dimensions;
         subject.about.changes = changes.to_vec();
         subject.constants = input.constants;
-        let doubts = plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning[{}]: {text}", MistakeCode::TwoUnits));
+        let doubts =
+            plausible::warnings(subject.problem()).into_iter().map(|text| format!("warning[{}]: {text}", MistakeCode::TwoUnits));
         subject.warnings = input.warnings.iter().map(|warning| input::render(warning, "warning")).chain(doubts).collect();
         Ok(subject)
     }
