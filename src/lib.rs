@@ -40,6 +40,7 @@
 //! | room | what happens there |
 //! |---|---|
 //! | [`api`] | problems put together in Rust, answers by name |
+//! | `cli` | arguments, subcommands, exit codes: what the program and the Python package run |
 //! | `study` | many runs of one problem: points, chains, a table |
 //! | `run` | one run, start to finish |
 //! | `input` | the TOML file and its CSV tables become a checked `problem::Problem` |

@@ -21,6 +21,7 @@ from ._errors import (
     MeshError,
     Mistake,
     RiboptError,
+    StudyError,
     UnwrittenError,
 )
 from ._model import Model
@@ -37,6 +38,7 @@ from ._result import (
     Variables,
     Volumes,
 )
+from ._study import Study, sweep
 
 __all__ = [
     "Agreement",
@@ -61,6 +63,8 @@ __all__ = [
     "RibUses",
     "RiboptError",
     "Solution",
+    "Study",
+    "StudyError",
     "UnwrittenError",
     "Variables",
     "Volumes",
@@ -73,5 +77,6 @@ __all__ = [
     "loads",
     "mesh",
     "solve",
+    "sweep",
     "verify",
 ]

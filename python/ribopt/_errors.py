@@ -72,6 +72,10 @@ class MeshError(RiboptError, ValueError):
         self.defects = defects
 
 
+class StudyError(RiboptError):
+    """A study that cannot go on: another study's folder, a problem changed meanwhile, a failure where it stops at failures."""
+
+
 class UnwrittenError(RiboptError, OSError):
     """A run whose files could not be written; its result is here all the same."""
 
@@ -102,6 +106,8 @@ def made(name: str, message: str, details: str) -> Exception:
             return EvaluationError(message, *data)
         case "MeshError":
             return MeshError(message, tuple(data))
+        case "StudyError":
+            return StudyError(message)
         case "AnalysisError":
             return AnalysisError(message)
     return RiboptError(message)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ._problem import Problem
     from ._result import Result
+    from ._study import Study
 
 #: Lines of a table; data frames have all.
 MOST = 30
@@ -62,3 +63,15 @@ def of_problem(problem: Problem) -> str:
             len(model.variable_names),
         )
     )
+
+
+def of_study(study: Study) -> str:
+    """What varied, status and objective of the first points."""
+    titles = ["point", *study.names, "status", "objective"]
+    cells = [
+        column[:MOST] if isinstance(column, tuple) else [_number(value) for value in column[:MOST]]
+        for column in (study.columns[title] for title in titles if title in study.columns)
+    ]
+    titles = [title for title in titles if title in study.columns]
+    counts = ", ".join(f"{count} {status}" for status, count in study.status.items())
+    return f"<h4>{escape(study.title)}</h4><p>{escape(counts)}</p>" + _table(titles, zip(*cells, strict=True), len(study))

@@ -6,10 +6,19 @@ from typing import Any, TypedDict, final, type_check_only
 
 from ._arrays import FloatArray, IntArray
 
-__all__ = ["Model", "Problem", "__version__", "explain", "main"]
 
 __version__: str
 
+@type_check_only
+class Swept(TypedDict):
+    study: str | PathLike[str]
+    out: str | PathLike[str] | None
+    jobs: int
+    fresh: bool
+    retry: list[str]
+    watch: Callable[[int, int], Any] | None
+
+def sweep(asked: Swept) -> tuple[str, str, BaseException | None]: ...
 def main(arguments: Sequence[str]) -> int: ...
 def explain(code: str | None = None) -> str:
     """What a kind of mistake means, by the code told with it; all kinds without one."""

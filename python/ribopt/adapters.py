@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._arrays import FloatArray
 from ._errors import EvaluationError
 from ._model import Model
 from ._problem import Problem
@@ -127,30 +128,34 @@ def pyoptsparse_problem(problem: Problem | Model, name: str = "ribopt") -> tuple
     def coordinates(values: Any) -> dict[str, Any]:
         return {"coo": [rows, columns, values], "shape": shape}
 
-    def functions(point: dict[str, Any]) -> tuple[dict[str, Any], bool]:
+    def either(function: Any, otherwise: Any) -> tuple[Any, bool]:
         try:
-            found: dict[str, Any] = {"objective": model.objective(point["x"])}
-            if model.row_names:
-                found["constraints"] = model.constraints(point["x"])
-            return found, False
+            return function(), False
         except EvaluationError:
-            return {"objective": np.nan, "constraints": np.full(shape[0], np.nan)}, True
+            return otherwise, True
+
+    def functions(point: dict[str, Any]) -> tuple[dict[str, Any], bool]:
+        objective, failed = either(lambda: model.objective(point["x"]), np.nan)
+        constraints, also_failed = either(lambda: model.constraints(point["x"]), np.full(shape[0], np.nan))
+        return {"objective": objective, **({"constraints": constraints} if shape[0] else {})}, failed or also_failed
 
     def derivatives(point: dict[str, Any], _: dict[str, Any]) -> tuple[dict[str, Any], bool]:
-        try:
-            found: dict[str, Any] = {"objective": {"x": model.gradient(point["x"])}}
-            if model.row_names:
-                found["constraints"] = {"x": coordinates(model.jacobian(point["x"]))}
-            return found, False
-        except EvaluationError:
-            return {}, True
+        gradient, failed = either(lambda: model.gradient(point["x"]), np.full(shape[1], np.nan))
+        jacobian, also_failed = either(lambda: model.jacobian(point["x"]), np.full(len(rows), np.nan))
+        rows_of_it = {"constraints": {"x": coordinates(jacobian)}} if shape[0] else {}
+        return {"objective": {"x": gradient}, **rows_of_it}, failed or also_failed
 
     optimization = Optimization(name, functions)
-    optimization.addVarGroup("x", shape[1], "c", lower=model.lower, upper=model.upper, value=model.start)
+    lower, upper = _open(model.lower), _open(model.upper)
+    optimization.addVarGroup("x", shape[1], "c", lower=lower, upper=upper, value=model.start)
     if model.row_names:
         pattern = {"x": coordinates(np.ones(len(rows)))}
-        optimization.addConGroup(
-            "constraints", shape[0], lower=model.row_lower, upper=model.row_upper, wrt=["x"], jac=pattern
-        )
+        lower, upper = _open(model.row_lower), _open(model.row_upper)
+        optimization.addConGroup("constraints", shape[0], lower=lower, upper=upper, wrt=["x"], jac=pattern)
     optimization.addObj("objective")
     return optimization, derivatives
+
+
+def _open(limits: FloatArray) -> list[float | None]:
+    """pyOptSparse wants None where there is no limit."""
+    return [limit if np.isfinite(limit) else None for limit in limits.tolist()]

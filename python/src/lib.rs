@@ -4,6 +4,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `problem` | a problem read, solved, verified, analysed |
+//! | `study` | many runs of one problem |
 //! | `model` | values and derivatives over buffers |
 //! | `mesh` | meshes over buffers |
 //! | `watch` | Ctrl-C and iterations of a run that goes on without the interpreter's lock |
@@ -15,6 +16,7 @@ mod mesh;
 mod model;
 mod numbers;
 mod problem;
+mod study;
 mod watch;
 
 use pyo3::pymodule;
@@ -34,6 +36,8 @@ mod _native {
     use super::model::Model;
     #[pymodule_export]
     use super::problem::Problem;
+    #[pymodule_export]
+    use super::study::sweep;
 
     /// Runs the command line with these arguments, the program's name first; its exit code.
     #[pyfunction]

@@ -61,7 +61,8 @@ def test_openmdao_steps_back_where_there_is_no_value(tmp_path, monkeypatch: pyte
 
 
 @pytest.mark.parametrize("name", TWO)
-def test_pyoptsparse(name: str) -> None:
+def test_pyoptsparse(name: str, tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # it leaves a file
     pyoptsparse = pytest.importorskip("pyoptsparse", reason="pyOptSparse is on no package index; it is built from source")
     problem = ribopt.load(PROBLEMS / f"{name}.toml")
     optimization, sens = adapters.pyoptsparse_problem(problem)

@@ -13,7 +13,7 @@ use super::{interrupt, output};
 use ribopt::report::result::write_value;
 use ribopt::report::text::count;
 use ribopt::run::folder::default_folder;
-use ribopt::study::{Ended, Request, Seen, Share, Store, Study, StudyError, TABLE, Table, pictures, retry, submit, work};
+use ribopt::study::{self, Ended, Request, Seen, Share, Store, Study, StudyError, TABLE, Table, retry, submit, work};
 
 /// Works on a study, or does with it what was asked for.
 pub fn run(arguments: &Sweep) -> Result<u8, Failure> {
@@ -83,14 +83,8 @@ struct Summary<'a> {
 
 /// Merges where that is wanted, and says how far the study is. Exit code 1 where a point is missing or brought no answer.
 fn told(arguments: &Sweep, study: &Study, store: &Store, merge: bool) -> Result<u8, Failure> {
-    let table = Table::of(study, store);
+    let table = if merge { study::merge(study, store).map_err(StudyError::from)? } else { Table::of(study, store) };
     let place = store.folder().join(TABLE);
-    if merge {
-        store.put(TABLE, |out| table.write(study, out)).map_err(StudyError::from)?;
-        for (name, picture) in pictures(study, &table) {
-            store.put(&name, |out| out.write_all(picture.as_bytes())).map_err(StudyError::from)?;
-        }
-    }
     let summary = Summary {
         format: "ribopt-sweep/1",
         study: study.file.display().to_string(),

@@ -9,6 +9,7 @@ mod declaration;
 mod designs;
 mod front;
 mod layout;
+mod merge;
 mod mistakes;
 mod pictures;
 mod point;
@@ -30,6 +31,7 @@ use thiserror::Error;
 
 pub use declaration::OnFailure;
 pub use front::{Tangent, lower_bound, tangents};
+pub use merge::merge;
 pub use pictures::pictures;
 pub use rank::Share;
 pub use retry::retry;
