@@ -7,6 +7,27 @@ from typing import Any, TypedDict, final, type_check_only
 from ._arrays import FloatArray, IntArray
 
 
+__all__ = [
+    "Model",
+    "Problem",
+    "__version__",
+    "explain",
+    "main",
+    "mesh_check",
+    "mesh_closest",
+    "mesh_hausdorff",
+    "mesh_new",
+    "mesh_read",
+    "mesh_reconstruct",
+    "mesh_section",
+    "mesh_slice",
+    "mesh_smooth",
+    "mesh_trace",
+    "mesh_weld",
+    "mesh_write",
+    "sweep",
+]
+
 __version__: str
 
 @type_check_only
@@ -89,15 +110,15 @@ class Model:
     def hessian(self, x: FloatArray, multipliers: FloatArray, weight: float, out: FloatArray) -> None: ...
     def hessian_product(self, x: FloatArray, multipliers: FloatArray, weight: float, direction: FloatArray, out: FloatArray) -> None: ...
 
-MeshParts = tuple[bytes, bytes, bytes, bytes]
+_Parts = tuple[bytes, bytes, bytes, bytes]
 _Mesh = tuple[FloatArray, IntArray, IntArray, IntArray]
 
-def mesh_read(path: str | PathLike[str]) -> MeshParts: ...
+def mesh_read(path: str | PathLike[str]) -> _Parts: ...
 def mesh_write(mesh: _Mesh, path: str | PathLike[str]) -> None: ...
-def mesh_new(name: str) -> MeshParts: ...
+def mesh_new(name: str) -> _Parts: ...
 def mesh_check(mesh: _Mesh, rule: str) -> str: ...
-def mesh_weld(mesh: _Mesh, tolerance: float) -> tuple[MeshParts, str]: ...
-def mesh_reconstruct(mesh: _Mesh, original: _Mesh, tolerance: float | None, fill: bool, snap: bool) -> tuple[MeshParts, str]: ...
+def mesh_weld(mesh: _Mesh, tolerance: float) -> tuple[_Parts, str]: ...
+def mesh_reconstruct(mesh: _Mesh, original: _Mesh, tolerance: float | None, fill: bool, snap: bool) -> tuple[_Parts, str]: ...
 def mesh_smooth(
     mesh: _Mesh,
     method: str,
@@ -107,7 +128,7 @@ def mesh_smooth(
     slide: bool,
     features: float | None,
     project: _Mesh | None,
-) -> tuple[MeshParts, str]: ...
+) -> tuple[_Parts, str]: ...
 def mesh_trace(mesh: _Mesh, rule: str) -> tuple[bytes, bytes, list[bool], str]: ...
 def mesh_slice(mesh: _Mesh, rule: str, segments: float) -> tuple[list[tuple[str, bool, bytes, bytes]], str]: ...
 def mesh_section(mesh: _Mesh, origin: FloatArray, normal: FloatArray) -> tuple[list[list[bytes]], str]: ...

@@ -70,7 +70,7 @@ class Mesh:
         return self.corners.reshape(-1, 4)
 
     @classmethod
-    def _of(cls, parts: _native.MeshParts) -> Mesh:
+    def _of(cls, parts: tuple[bytes, bytes, bytes, bytes]) -> Mesh:
         vertices, corners, sizes, edges = parts
         return cls(of_bytes(vertices).reshape(-1, 3), integers(corners), integers(sizes), integers(edges).reshape(-1, 2))
 
