@@ -71,6 +71,8 @@ extern crate self as ribopt;
 pub mod api;
 pub mod backends;
 pub mod certificate;
+// Its comments are the program's help, where `<file stem>` is no tag.
+#[allow(rustdoc::invalid_html_tags)]
 #[doc(hidden)]
 pub mod cli;
 pub mod crosscheck;

@@ -54,7 +54,7 @@ pub struct Input {
     pub files: Vec<PathBuf>,
     /// What its numbers measure.
     pub dimensions: Dimensions,
-    /// The numbers of [`Additions::constants`].
+    /// The numbers of the additions' constants.
     pub constants: Vec<f64>,
 }
 
@@ -107,7 +107,7 @@ pub fn read_text(name: &str, text: &str) -> Result<Input, Mistakes> {
     read_text_in(name, text, Path::new(""), &[])
 }
 
-/// [`read_text`] with tables looked for in `folder`, and some of the text's numbers replaced as [`read_watched`] does it.
+/// [`read_text`] with tables looked for in `folder`, and some of the text's numbers replaced as by [`Additions::changes`].
 ///
 /// # Errors
 /// Every mistake of the text, its tables and the overrides.
