@@ -68,3 +68,16 @@ def test_pyoptsparse(name: str, tmp_path, monkeypatch: pytest.MonkeyPatch) -> No
     optimization, sens = adapters.pyoptsparse_problem(problem)
     found = pyoptsparse.SLSQP(options={"ACC": 1e-10, "MAXIT": 500})(optimization, sens=sens)
     judged(problem, found.xStar["x"])
+
+
+@pytest.mark.parametrize("name", ["grillage", "vanderplaats-cantilever", "rocket"])
+def test_cyipopt_takes_a_model_as_it_is(name: str) -> None:
+    cyipopt = pytest.importorskip("cyipopt", reason="cyipopt is built against an Ipopt of the system")
+    problem = ribopt.load(PROBLEMS / f"{name}.toml")
+    m = problem.model
+    sizes, limits = (len(m.lower), len(m.row_lower)), {"lb": m.lower, "ub": m.upper, "cl": m.row_lower, "cu": m.row_upper}
+    ipopt = cyipopt.Problem(*sizes, problem_obj=m, **limits)
+    ipopt.add_option("print_level", 0)
+    x, info = ipopt.solve(m.start.copy())
+    assert info["status"] == 0
+    judged(problem, np.clip(x, m.lower, m.upper))
