@@ -27,6 +27,11 @@ fn may_be_zero(meta: &Meta, j: usize) -> bool {
 /// they tell of all their variables together: x·y ≤ 1 beside (1e−8, 1e−8) says neither that x is 1e8 nor that y is, and x² ≤ 1
 /// tells a size also beside 0, where it has no slope.
 pub(super) fn known_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
+    told_sizes(origin, x, jacobian).into_iter().map(or_one).collect()
+}
+
+/// The same, infinite where nothing tells.
+pub(super) fn told_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
     let meta = origin.meta();
     let mut told = Told::by_slopes(meta, jacobian);
     let doubted = told.doubted(meta, x);
@@ -51,7 +56,7 @@ pub(super) fn known_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> V
             told.known[j] = f64::INFINITY;
         }
     });
-    told.known.into_iter().map(or_one).collect()
+    told.known
 }
 
 /// A size, or 1 for want of anything better.

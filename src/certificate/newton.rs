@@ -42,6 +42,7 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> N
         model: &point.origin.model,
         x: point.x,
         sizes: point.plain_sizes(),
+        known: point.plain_sizes(),
         free: &free,
         held: &held,
         multipliers: &active.multipliers.rows,

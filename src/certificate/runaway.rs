@@ -3,6 +3,7 @@
 
 use super::feasibility::{self, worst_violation};
 use super::higher_order::Trial;
+use super::known_sizes;
 use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
 use super::{Class, Tolerances};
@@ -106,10 +107,12 @@ fn follow(
         };
         !point.is_over() && Point::new(point.origin, x).is_ok_and(meets)
     };
+    let known = known_sizes::told_sizes(point.origin, point.x, &point.jacobian);
     let site = Site {
         model: &point.origin.model,
         x: point.x,
         sizes: point.plain_sizes(),
+        known: &known,
         free,
         held,
         multipliers: &active.multipliers.rows,

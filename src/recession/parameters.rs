@@ -35,8 +35,11 @@ parameters! {
     valley {
         /// Doublings of the distance: a rise within a thousandth of a size is a minimum's own, 2^100 sizes are beyond what a model means.
         DOUBLINGS: std::ops::Range<i32> = -10..100;
-        /// Doublings that must go well before the model may end in an overflow, or be lost in rounding.
+        /// Doublings beyond what is known of a variable's size that must go well before the model may end in an overflow, or be lost in
+        /// rounding.
         ENOUGH: i32 = 24;
+        /// The same of a point that is out there already: to four times its distance, 2^LEFT_BEHIND·FIRST = 4.
+        LEFT_BEHIND: i32 = 4;
         /// The first step, in sizes of the variable.
         FIRST: f64 = 0.25;
         /// Halvings and doublings of the first step in which an asymptote must have risen on the other side.

@@ -138,8 +138,8 @@ impl Terrain<'_> {
         if !self.is_bounded && is_endless(&heights) {
             return Some(Fall::Endless);
         }
-        let lowest = heights.iter().fold(base, |low, &height| if height.value < low.value { height } else { low });
-        let falls = base.value - lowest.value > base.noise + lowest.noise;
+        // Of the lowest place of all, far out, rounding may tell nothing.
+        let falls = heights.iter().any(|height| base.value - height.value > base.noise + height.noise);
         // Level along a half-line and no constant: it nears an asymptote.
         let rises_back = || inward.map_while(|x| self.at(&x)).any(|height| height.rises_above(base));
         (falls || rises_back()).then_some(Fall::Settling)
