@@ -19,13 +19,14 @@ use crate::math::within;
 use crate::model::Model;
 
 /// A direction along which a stationary point is no minimum although no curvature shows it; in the user's variables, ten times
-/// the way to a feasible point that is lower.
+/// the way to a feasible point that is lower. Of curvature: `inwards`, flat directions that leave weakly active limits, and whether the
+/// gradients of active rows depend on one another.
 pub(in crate::certificate) fn find(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
     tolerances: &Tolerances,
-    inwards: &[Vec<f64>],
+    (inwards, dependent): (&[Vec<f64>], bool),
 ) -> Result<Option<Vec<f64>>, FactorizationError> {
     let choice = Choice::relaxed_all(point, active, hessian);
     let (free, strict) = (choice.loose_variables(), choice.strict_rows());
@@ -40,8 +41,9 @@ pub(in crate::certificate) fn find(
     }
     let mut walk = Walk::from(point, active, hessian, tolerances, &choice)?;
     let found = walk.lower_point(inwards.iter().take(most).chain(&flat));
-    // Bent rows whose gradients depend on one another may have no point in common but this one.
-    if found.is_some() || strict.is_empty() {
+    // Bent rows whose gradients depend on one another may have no point in common but this one; independent ones meet on a surface, by the
+    // theorem of implicit functions.
+    if found.is_some() || strict.is_empty() || !dependent {
         return Ok(found);
     }
     walk.may_be_left.fill(true);
@@ -148,9 +150,14 @@ impl<'w, 'p> Walk<'w, 'p> {
             }
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
-            let Some(trial) = Trial::at(point, &x).filter(|trial| trial.is_feasible(point, self.tolerances.constraint)) else {
+            let Some(trial) = Trial::at(point, &x) else { continue };
+            if !trial.is_feasible(point, self.tolerances.constraint) {
+                // To first order what is feasible is a cone: where the shortest step cannot be drawn back to the limits no longer one can.
+                if step == STEPS[0] {
+                    return None;
+                }
                 continue;
-            };
+            }
             let value = trial.penalised(point, self.multipliers);
             let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
             if value < self.here.0 - explained {

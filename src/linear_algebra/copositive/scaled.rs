@@ -88,11 +88,13 @@ impl Scaled {
             if !seen.insert(support.clone()) {
                 continue;
             }
-            let Some((lowest, vector)) = self.lowest(&support, |entry| entry) else { return false };
             // Without its positive entries off the diagonal M is less; where it is definite even so, no part of it falls.
-            let bounded = |off: f64| off.min(0.0);
-            let is_bounded = || threshold < 0.0 && self.lowest(&support, bounded).is_some_and(|(least, _)| least >= threshold);
-            if lowest >= threshold || is_bounded() {
+            let is_bounded = || threshold < 0.0 && self.is_above(threshold, &support, |off| off.min(0.0));
+            if self.is_above(threshold, &support, |off| off) || is_bounded() {
+                continue;
+            }
+            let Some((lowest, vector)) = self.lowest(&support) else { return false };
+            if lowest >= threshold {
                 continue;
             }
             if left == 0 || support.len() > WIDEST {
@@ -135,16 +137,28 @@ impl Scaled {
         parts
     }
 
-    /// The lowest eigenvalue over a support and its vector, the entries off the diagonal being changed.
-    pub(super) fn lowest(&self, support: &[usize], off: impl Fn(f64) -> f64) -> Option<(f64, Vec<f64>)> {
-        if let [only] = support {
-            return Some((self.entries[(*only, *only)], vec![1.0]));
-        }
+    /// A part of the matrix, its entries off the diagonal being changed.
+    fn part(&self, support: &[usize], off: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let entry = |i: usize, j: usize| {
             if i == j { self.entries[(support[i], support[i])] } else { off(self.entries[(support[i], support[j])]) }
         };
-        let part = DMatrix::from_fn(support.len(), support.len(), entry);
-        let eigen = SymmetricEigen::try_new(part, f64::EPSILON, 1000)?;
+        DMatrix::from_fn(support.len(), support.len(), entry)
+    }
+
+    /// Whether all eigenvalues of such a part are above a threshold: exactly then the part less the threshold has a Cholesky factorisation, at
+    /// a thirtieth of the eigenvalues' price.
+    fn is_above(&self, threshold: f64, support: &[usize], off: impl Fn(f64) -> f64) -> bool {
+        let mut part = self.part(support, off);
+        (0..support.len()).for_each(|at| part[(at, at)] -= threshold);
+        part.cholesky().is_some()
+    }
+
+    /// The lowest eigenvalue over a support and its vector.
+    fn lowest(&self, support: &[usize]) -> Option<(f64, Vec<f64>)> {
+        if let [only] = support {
+            return Some((self.entries[(*only, *only)], vec![1.0]));
+        }
+        let eigen = SymmetricEigen::try_new(self.part(support, |entry| entry), f64::EPSILON, 1000)?;
         let (at, lowest) = eigen.eigenvalues.argmin();
         Some((lowest, eigen.eigenvectors.column(at).iter().copied().collect()))
     }
