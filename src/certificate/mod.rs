@@ -217,7 +217,10 @@ impl<'a> Certifier<'a> {
         // Convex problems have no inflections, and need no second order: the first proves.
         let (undecided, descent) = match escape.is_some() || self.class.is_global() {
             true => (undecided.filter(|_| !self.class.is_global()), None),
-            false => (undecided, higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent)).unwrap_or_default()),
+            false => (
+                undecided,
+                higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent)).unwrap_or_default(),
+            ),
         };
         let descends_at_higher_order = descent.is_some();
         let mut runaway = match has_negative_curvature || descends_at_higher_order {
