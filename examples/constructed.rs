@@ -61,7 +61,8 @@ fn explain(all: &Constructed, at: usize) -> Result<(), Box<dyn Error>> {
     println!("  primal {primal:.1e}, dual {dual:.1e}, complementarity {gap:.1e}, flat {}", found.minimiser_may_not_be_unique);
     println!("  sigma {:.1e}, sizes {:.2?}", found.sigma, found.variable_scales);
     println!("  rows {:?}, bounds {:?}", found.row_sides, found.bound_sides);
-    println!("  multipliers of rows {:.2?}, of bounds {:.2?}", found.row_multipliers, found.bound_multipliers);
+    let short = |values: &[f64]| values.iter().map(|value| format!("{value:.1e}")).collect::<Vec<_>>().join(", ");
+    println!("  multipliers of rows [{}], of bounds [{}]", short(&found.row_multipliers), short(&found.bound_multipliers));
     found.messages.iter().for_each(|text| println!("  {text}"));
     Ok(())
 }

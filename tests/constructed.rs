@@ -6,8 +6,8 @@ mod constructed;
 use constructed::{Fault, Nature, Tally, construct};
 
 /// Flat points whose fall only a multiplier that may be 0 explained, and strict minima with weak limits of functions that fall
-/// without end elsewhere.
-const MORE: [u64; 4] = [78303, 900_821, 77571, 78755];
+/// without end elsewhere; and one that falls by a fourth power beside a direction that hardly bends.
+const MORE: [u64; 5] = [78303, 900_821, 77571, 78755, 15457];
 
 #[test]
 fn no_point_is_certified_that_is_no_minimum_and_strict_minima_are() {

@@ -107,6 +107,8 @@ parameters! {
         FLAT_SHIFT: f64 = 1e-6;
         /// … and the steps of inverse iteration.
         FLAT_STEPS: usize = 4;
+        /// A flat direction is another than those found where > INDEPENDENT of it is beyond their span.
+        INDEPENDENT: f64 = 1e-3;
         /// Rows of more free variables than this are not narrow.
         WIDEST: usize = 8;
         /// Fewer variables and rows are tested as a whole.

@@ -1,12 +1,17 @@
 //! The scaled KKT matrix over free variables and active rows, and what its inertia says.
 
+use nalgebra::{DMatrix, SymmetricEigen};
+
 use super::system::{Hessian, places, weight};
-use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, POWER_STEPS};
+use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, INDEPENDENT, POWER_STEPS};
 use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
 use crate::linear_algebra::{FactorizationError, Inertia};
 use crate::math::split_mix::SplitMix;
+
+/// Rounds of the decomposition of a small matrix, which needs two or three for each of its rows.
+const ROUNDS: usize = 1000;
 
 /// [S + shift, Aᵀ; A, −δI]
 pub(in crate::certificate) struct Kkt<'a> {
@@ -124,14 +129,14 @@ impl<'a> Kkt<'a> {
     }
 
     /// Directions on the null space of A along which S bends by less than `flat`, in units of σ: inverse iteration from `most`
-    /// different places. In the user's variables, the largest relative entry of each 1.
+    /// different places, and what these are mixed of. In the user's variables, the largest relative entry of each 1.
     pub(in crate::certificate) fn flat_directions(
         &mut self,
         most: usize,
         flat: f64,
     ) -> Result<Vec<Vec<f64>>, FactorizationError> {
         self.factor_shifted(FLAT_SHIFT)?;
-        let (p, mut found) = (self.free.len(), Vec::<Vec<f64>>::new());
+        let (p, mut found, mut basis) = (self.free.len(), Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new());
         // Quadrants first, then single variables.
         let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
         let singles = p.min(most.saturating_sub(quadrants));
@@ -152,12 +157,41 @@ impl<'a> Kkt<'a> {
                 size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
                 v.iter_mut().for_each(|v| *v /= size);
             }
-            let is_new = |v: &[f64]| found.iter().all(|known| !is_parallel(known, v));
-            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * product(&v, &v) && is_new(&v) {
+            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * product(&v, &v) {
+                basis.extend(beyond(&basis, &v));
+                if is_new(&found, &v) {
+                    found.push(v);
+                }
+            }
+        }
+        for v in self.apart(&basis) {
+            if self.bend(&v).abs() <= FLAT_SHIFT * product(&v, &v) && is_new(&found, &v) {
                 found.push(v);
             }
         }
         Ok(found.iter().map(|v| self.in_user_variables(v)).collect())
+    }
+
+    /// The directions within the span of an orthonormal basis along which S bends each by itself (Rayleigh and Ritz): inverse iteration mixes
+    /// those whose curvature is within its shift, and a direction that a fourth power falls along is hidden by one that bends a little.
+    fn apart(&self, basis: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        if basis.len() < 2 {
+            return Vec::new();
+        }
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
+        let alone: Vec<f64> = basis.iter().map(|v| self.bend(v)).collect();
+        let both = |i: usize, j: usize| 0.5 * (self.bend(&sum(&basis[i], &basis[j])) - alone[i] - alone[j]);
+        let small = DMatrix::from_fn(basis.len(), basis.len(), |i, j| if i == j { alone[i] } else { both(i, j) });
+        let mixed = |share: &[f64]| {
+            let part = |at: usize| basis.iter().zip(share).map(|(v, share)| share * v[at]).sum();
+            let mut v: Vec<f64> = (0..self.free.len()).map(part).collect();
+            let largest = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            v.iter_mut().for_each(|v| *v /= largest);
+            v
+        };
+        let eigen =
+            small.iter().all(|entry| entry.is_finite()).then(|| SymmetricEigen::try_new(small, f64::EPSILON, ROUNDS)).flatten();
+        eigen.map_or_else(Vec::new, |eigen| eigen.eigenvectors.column_iter().map(|share| mixed(share.as_slice())).collect())
     }
 
     fn factor_shifted(&mut self, shift: f64) -> Result<Inertia, FactorizationError> {
@@ -227,6 +261,23 @@ fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item
 /// Whether two vectors span one line.
 fn is_parallel(a: &[f64], b: &[f64]) -> bool {
     product(a, b).powi(2) > 0.999 * product(a, a) * product(b, b)
+}
+
+fn is_new(found: &[Vec<f64>], v: &[f64]) -> bool {
+    found.iter().all(|known| !is_parallel(known, v))
+}
+
+/// What of v is beyond the span of an orthonormal basis, of length one; `None` where that is hardly anything.
+fn beyond(basis: &[Vec<f64>], v: &[f64]) -> Option<Vec<f64>> {
+    let mut rest = v.to_vec();
+    // Twice is enough (Giraud, Langou, Rozložník and van den Eshof 2005).
+    for known in basis.iter().chain(basis) {
+        let share = product(known, &rest);
+        rest.iter_mut().zip(known).for_each(|(rest, known)| *rest -= share * known);
+    }
+    let length = product(&rest, &rest).sqrt();
+    rest.iter_mut().for_each(|rest| *rest /= length);
+    (length > INDEPENDENT * product(v, v).sqrt()).then_some(rest)
 }
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
