@@ -2,13 +2,12 @@
 
 mod support;
 
-use rayon::prelude::*;
 use ribopt::certificate::Extent;
 use ribopt::crosscheck::Status;
 use ribopt::problem::Settings;
 use ribopt::run::choice::{all, built_in};
 use ribopt::run::{Choice, Subject};
-use support::{Promise, diagnosis, name, problem_files, read, solve};
+use support::{Promise, diagnosis, name, problem_files, read, solve, two_at_a_time};
 
 /// Backend, problem, and why the one need not solve the other.
 const EXCLUDED: &[(&str, &str, &str)] =
@@ -35,7 +34,7 @@ fn optimum(promise: &Promise) -> f64 {
 
 #[test]
 fn every_backend_certifies_the_known_optimum_of_every_problem() {
-    let failures: Vec<String> = problem_files("problems").par_iter().flat_map_iter(|path| backends_on(path)).collect();
+    let failures: Vec<String> = two_at_a_time(&problem_files("problems"), backends_on).concat();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
@@ -60,7 +59,7 @@ fn backends_on(path: &std::path::Path) -> Vec<String> {
 
 #[test]
 fn no_algorithm_is_certified_at_a_wrong_objective() {
-    let failures: Vec<String> = problem_files("problems").par_iter().flat_map_iter(|path| algorithms_on(path)).collect();
+    let failures: Vec<String> = two_at_a_time(&problem_files("problems"), algorithms_on).concat();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 

@@ -5,14 +5,12 @@
 
 mod support;
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::path::Path;
 
 use ribopt::crosscheck::{Outcome, Status};
 use ribopt::problem::Settings;
 use ribopt::run::choice::choose;
-use support::{Promise, diagnosis, name, problem_files, read, solve};
+use support::{Promise, diagnosis, name, problem_files, read, solve, two_at_a_time};
 
 /// Problems that do not end as they should, and why. A problem that does must leave the table.
 const KNOWN_FAILURES: &[(&str, &str)] = &[];
@@ -25,7 +23,7 @@ const ACCURACY_WITHOUT_MULTIPLIERS: f64 = 5e-3;
 
 #[test]
 fn every_problem_gets_its_right_verdict() {
-    let results = results(&problem_files("tests/extra"));
+    let results = two_at_a_time(&problem_files("tests/extra"), |path| (name(path), verdict(path)));
     let known = |file: &str| KNOWN_FAILURES.iter().any(|(known, _)| file.ends_with(known));
     let mut complaints = Vec::new();
     for (file, result) in results {
@@ -36,20 +34,6 @@ fn every_problem_gets_its_right_verdict() {
         }
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
-}
-
-/// File by file, two at a time. Not by rayon: a solve waiting for its own parts there would take up another file meanwhile, and
-/// count its time.
-fn results(files: &[PathBuf]) -> Vec<(String, Result<(), String>)> {
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let ours = std::iter::from_fn(|| files.get(next.fetch_add(1, Ordering::Relaxed)));
-        ours.map(|path| (name(path), verdict(path))).collect::<Vec<_>>()
-    };
-    thread::scope(|scope| {
-        let workers = [scope.spawn(work), scope.spawn(work)];
-        workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
-    })
 }
 
 fn verdict(path: &Path) -> Result<(), String> {

@@ -1,16 +1,19 @@
 //! What the optimum gains by each varied name: the envelope theorem (Fiacco 1983, ch. 3). Along minima with unchanged active limits
 //! dF*/dp = ∂L/∂p at the fixed point and multipliers, L the Lagrangian with the active limits in it.
 
+use std::sync::Arc;
+
 use super::row::finite;
 use super::{Point, Study};
 use crate::certificate::Side;
-use crate::model::Model;
+use crate::input;
+use crate::model::{Model, assemble_any};
 use crate::report::Findings;
 use crate::run::Subject;
 
-/// A share of the value: the cube root of the rounding unit, where the errors of a central difference by cutting off (step²) and by rounding
-/// (unit/step) are equal (Nocedal and Wright 2006, section 8.1).
-const STEP: f64 = 6.055_454_452_393_343e-6;
+/// A share of the value: the square root of the rounding unit, where the errors of a difference by cutting off (step) and by rounding
+/// (unit/step) are equal (Nocedal and Wright 2006, section 8.1): about seven digits are right.
+const STEP: f64 = 1.490_116_119_384_765_6e-8;
 
 /// The sensitivity of the reported objective to every varied name; `None` where there is none.
 pub(super) fn all(study: &Study, point: &Point, subject: &Subject, findings: &Findings<'_>) -> Vec<Option<f64>> {
@@ -57,7 +60,7 @@ fn by_bound(name: &str, findings: &Findings<'_>) -> Option<f64> {
     (!held.is_empty() && (is_fixed || found.is_some())).then(|| held.iter().sum())
 }
 
-/// A central difference of the Lagrangian at the fixed point.
+/// A difference of the Lagrangian at the fixed point.
 fn by_difference(
     study: &Study,
     point: &Point,
@@ -70,17 +73,24 @@ fn by_difference(
         None => own_value(study, name)?,
     };
     let size = if value == 0.0 { study.size(axis) } else { value.abs() };
-    let (below, above) = (value - STEP * size, value + STEP * size);
-    let at = |value: f64| {
-        let mut moved = point.clone();
-        moved.values[axis] = Some(value);
-        let other = Subject::read_with(&study.problem, &study.additions(&moved), &|_| {}).ok()?;
-        let alike = other.shown().meta().variables() == subject.shown().meta().variables()
-            && other.shown().meta().rows() == subject.shown().meta().rows();
-        if alike { lagrangian(other.shown(), findings) } else { None }
+    let mut moved = point.clone();
+    let beside = value + STEP * size;
+    moved.values[axis] = Some(beside);
+    let additions = study.additions(&moved);
+    let there = if is_plain(subject) {
+        let problem = input::read_with(&study.problem, &additions, &|_| {}).ok()?.problem;
+        lagrangian(assemble_any(&Arc::new(problem)).ok()?.model(), findings)
+    } else {
+        lagrangian(Subject::read_with(&study.problem, &additions, &|_| {}).ok()?.shown(), findings)
     };
-    let difference = at(above)? - at(below)?;
-    Some(findings.in_users_sense(difference / (above - below)))
+    let difference = there? - lagrangian(findings.model, findings)?;
+    Some(findings.in_users_sense(difference / (beside - value)))
+}
+
+/// Whether the problem as it is read is the one that is shown: it was restated neither for kinks nor for a structure. Then it need not be
+/// classified anew, which takes as long as reading it.
+fn is_plain(subject: &Subject) -> bool {
+    subject.problem().structure.is_none() && subject.model().own().variables == subject.model().meta().variables()
 }
 
 /// The number the file itself has, of a parameter.
@@ -92,6 +102,9 @@ fn own_value(study: &Study, name: &str) -> Option<f64> {
 fn lagrangian(model: &dyn Model, findings: &Findings<'_>) -> Option<f64> {
     let (meta, x) = (model.meta(), &findings.outcome.x);
     let certificate = findings.outcome.certificate.as_ref()?;
+    if meta.variables() != x.len() || meta.rows() != certificate.row_sides.len() {
+        return None;
+    }
     let mut rows = vec![0.0; meta.rows()];
     model.constraints(x, &mut rows).ok()?;
     let mut sum = model.objective(x).ok()?;
