@@ -57,11 +57,6 @@ impl Row {
     pub fn has_failed(&self) -> bool {
         !matches!(self.exit, Some(0 | 3 | 4))
     }
-
-    /// The same but for the seconds, which no two runs share.
-    pub fn without_seconds(&self) -> Row {
-        Row { seconds: 0.0, ..self.clone() }
-    }
 }
 
 /// A number that is one.

@@ -70,7 +70,8 @@ impl Scale {
     }
 }
 
-fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+/// The least and the greatest of the values that are finite.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     values.filter(|value| value.is_finite()).fold(None, |found, value| match found {
         None => Some((value, value)),
         Some((low, high)) => Some((low.min(value), high.max(value))),

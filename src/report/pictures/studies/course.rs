@@ -1,7 +1,7 @@
 //! The objective over one varied name, and what governs where.
 
 use super::legend;
-use crate::report::pictures::axes::{Panel, Scale};
+use crate::report::pictures::axes::{Panel, Scale, range};
 use crate::report::pictures::canvas::{Canvas, Ink, Style, through};
 
 /// One line over a varied name.
@@ -25,7 +25,7 @@ pub fn course(title: &str, names: [&str; 2], courses: &[Course]) -> String {
     let mut canvas = Canvas::new(860.0, 480.0, title, shown);
     let drawn = &courses[..courses.len().min(MOST)];
     let all = || drawn.iter().flat_map(|course| &course.points);
-    let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| (low.min(point.0), high.max(point.0)));
+    let (low, high) = range(all().map(|point| point.0)).unwrap_or((0.0, 1.0));
     let panel = Panel {
         left: 90.0,
         top: 60.0,

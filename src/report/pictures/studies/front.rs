@@ -1,6 +1,6 @@
 //! A front between two objectives.
 
-use crate::report::pictures::axes::{Panel, Scale};
+use crate::report::pictures::axes::{Panel, Scale, range};
 use crate::report::pictures::canvas::{Canvas, Ink, Style, through};
 
 /// What is known of a front.
@@ -36,13 +36,10 @@ pub fn front(title: &str, front: &Front) -> String {
     panel.draw(&mut canvas, &front.names[0], &front.names[1]);
     let bound = through(front.bound.iter().map(|&at| panel.at(at)), false);
     canvas.path(&bound, Style { stroke: Ink::Middle, width: 1.5, dash: "5 4", filled: false });
-    let range = |axis: usize| {
-        let ends = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at[axis]), high.max(at[axis])));
-        ends.1 - ends.0
-    };
+    let width = |axis: usize| range(all().map(|at| at[axis])).map_or(0.0, |(low, high)| high - low);
     for ([x, y], slope) in &front.points {
         if let Some(slope) = slope {
-            let half = TANGENT * range(0) / (slope.abs() * range(0) / range(1)).hypot(1.0);
+            let half = TANGENT * width(0) / (slope.abs() * width(0) / width(1)).hypot(1.0);
             let ends = [-half, half].map(|step| panel.at([x + step, y + slope * step]));
             canvas.path(&through(ends, false), Style::line(Ink::Curve(1), 1.5));
         }

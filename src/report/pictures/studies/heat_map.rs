@@ -2,6 +2,7 @@
 
 use super::Answer;
 use crate::report::number::significant;
+use crate::report::pictures::axes::range;
 use crate::report::pictures::canvas::{Canvas, Ink, Style};
 
 /// Answers over two names.
@@ -31,7 +32,7 @@ pub fn heat_map(title: &str, objective: &str, map: &HeatMap) -> String {
     let shown = format!("{objective}; hatched: no design meets the limits; a dot: not proved");
     let mut canvas = Canvas::new(820.0, 530.0, title, &shown);
     let known = || map.cells.iter().flatten().filter_map(|answer| answer.value());
-    let (low, high) = known().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) = range(known()).unwrap_or((f64::NAN, f64::NAN));
     let tint = |value: f64| {
         let share = if high > low { (value - low) / (high - low) } else { 0.5 };
         TINTS[0] + share * (TINTS[1] - TINTS[0])

@@ -2,7 +2,7 @@
 
 use super::Answer;
 use crate::report::number::significant;
-use crate::report::pictures::axes::Scale;
+use crate::report::pictures::axes::{Scale, range};
 use crate::report::pictures::canvas::{Canvas, Ink, Style, cut, through};
 
 const TOP: f64 = 70.0;
@@ -40,8 +40,7 @@ pub fn parallel(title: &str, names: &[&str], points: &[(Vec<f64>, Answer)], is_m
         let x = LEFT + step * at as f64;
         canvas.line([x, TOP, x, TOP + HEIGHT], Ink::Strong);
         let values: Vec<f64> = if at == last { objectives().collect() } else { column(at).collect() };
-        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)));
-        if low.is_finite() {
+        if let Some((low, high)) = range(values.into_iter()) {
             canvas.note(x, place(at, high)[1] - 6.0, "middle", &significant(high, 3));
             canvas.note(x, place(at, low)[1] + 14.0, "middle", &significant(low, 3));
         }
