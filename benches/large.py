@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
 """ribopt and Ipopt side by side on large rib networks: families P0 (bounds only), P1 (limits per section), P2 (lines of ten ribs
-with a sag limit) and P3 (a coupled grid; Ipopt in logarithms).
+with a sag limit), P3 (a coupled grid; Ipopt in logarithms), and structures: S (lattices of bars, two load cases) and G (grillages).
 
-usage: large.py RIBOPT GENERATORS [--families P0 P1 P2 P3] [--sizes 1000 10000 100000 1000000] [--runs 3] [--cap 300]
+usage: large.py RIBOPT GENERATORS [--families P0 P1 P2 P3 S G] [--sizes 1000 10000 100000 1000000] [--runs 3] [--cap 300]
                 [--total MINUTES] [--work FOLDER] [--table FILE.md] [--plot FILE.svg]          (pip install casadi numpy scipy)
 
-GENERATORS is the folder with write_tables.py, ribs.py and grid.py. Every time is the median of --runs runs, of a single one where the
-first took longer than a minute. A run ends after --cap seconds; a solver that met the cap is not asked for larger sizes of that family.
-With --total nothing is begun that is not expected to end in time: sizes ascend, and a size is taken for twelve times the one before.
+GENERATORS is the folder with write_tables.py, ribs.py and grid.py; structures come from structure_families.py. Every time is the median
+of --runs runs, of a single one where the first took longer than a minute; processor times are of both cores together. A run ends after
+--cap seconds; a solver that met the cap is not asked for larger sizes of that family. With --total nothing is begun that is not expected
+to end in time: sizes ascend, and a size is taken for twelve times the one before. Files are written where --table and --plot say; the
+repository's own are benches/results/large.md and docs/large.svg.
 """
 import argparse
 import datetime
 import json
 import os
 import platform
+import resource
 import signal
 import statistics
 import subprocess
@@ -22,18 +25,22 @@ import time
 from dataclasses import dataclass, field
 
 from loglog import Line, draw
+from structure_families import FAMILIES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ONE_RUN_FROM = 60.0
 GROWTH = 12.0
 BUILDING = 600.0
+STRUCTURES = {"S": "lattice", "G": "grillage"}
 
 
 @dataclass
 class Run:
-    """What a solver came to: whole process and solve alone, in seconds."""
+    """What a solver came to, in seconds: the whole process, what of the processor it took, and the solve alone; of Ipopt `processor` is
+    the solve's."""
 
     whole: float
+    processor: float
     solve: float
     iterations: int
     status: str
@@ -59,8 +66,20 @@ def edge(ribs):
     return round((1 + (1 + 2 * ribs) ** 0.5) / 2)
 
 
+def cells(family, ribs):
+    """Cells along an edge of the structure with about so many ribs: 4n² + n of a lattice, 2n(n − 1) of a grillage."""
+    return max(2, round((ribs / 4) ** 0.5 if family == "S" else edge(ribs)))
+
+
 def tables(family, size, generators, work):
-    """The problem's folder and its number of ribs; written if it is not there."""
+    """The problem's folder, its number of ribs and its size; written if it is not there."""
+    if family in STRUCTURES:
+        count = cells(family, size)
+        structure = FAMILIES[STRUCTURES[family]](count)
+        folder = os.path.join(work, f"{family}_{structure.ribs}")
+        if not os.path.exists(os.path.join(folder, "problem.toml")):
+            structure.write(folder)
+        return folder, structure.ribs, count
     count = edge(size) if family == "P3" else size
     ribs = 2 * count * (count - 1) if family == "P3" else size
     folder = os.path.join(work, f"{family}_{ribs}")
@@ -71,8 +90,8 @@ def tables(family, size, generators, work):
 
 
 def measured(command, limit):
-    """Wall seconds, peak megabytes and standard output; None for the output where the limit was met."""
-    begun = time.monotonic()
+    """Seconds by the wall and of the processor, and standard output; None for the output where the limit was met."""
+    begun, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         output, _ = process.communicate(timeout=limit)
@@ -80,7 +99,9 @@ def measured(command, limit):
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
         output = None
-    return time.monotonic() - begun, output
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return time.monotonic() - begun, processor, output
 
 
 def peak(command):
@@ -99,28 +120,28 @@ def megabytes(report):
 
 def run_ribopt(ribopt, folder, cap):
     out = os.path.join(folder, "out")
-    command = [ribopt, "solve", os.path.join(folder, "problem.toml"), "--backend", "argmin", "--out", out, "--quiet",
+    command = [ribopt, "solve", os.path.join(folder, "problem.toml"), "--backend", "argmin", "--starts", "1", "--out", out, "--quiet",
                "--max-seconds", str(cap)]
     command, report = peak(command)
-    whole, output = measured(command, cap + BUILDING)
+    whole, processor, output = measured(command, cap + BUILDING)
     if output is None:
         return None
     with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
         result = json.load(file)
     solution = result["solutions"][0]
     status = f'{result["status"]}, {result["scope"]}'
-    return Run(whole, solution["seconds"], solution["iterations"], status, result["objective"], megabytes(report),
+    return Run(whole, processor, solution["seconds"], solution["iterations"], status, result["objective"], megabytes(report),
                result["status"] == "certified")
 
 
 def run_ipopt(family, count, generators, cap):
-    command = [sys.executable, os.path.join(HERE, "large_ipopt.py"), family, str(count), generators, "--limit", str(cap)]
+    command = [sys.executable, os.path.join(HERE, "large_ipopt.py"), STRUCTURES.get(family, family), str(count), generators, "--limit", str(cap)]
     command, report = peak(command)
-    whole, output = measured(command, cap + BUILDING)
+    whole, _, output = measured(command, cap + BUILDING)
     if not output:
         return None
     found = json.loads(output.splitlines()[-1])
-    return Run(whole, found["seconds"], found["iterations"], found["status"], found["objective"], megabytes(report),
+    return Run(whole, found["processor"], found["seconds"], found["iterations"], found["status"], found["objective"], megabytes(report),
                found["status"] == "Solve_Succeeded")
 
 
@@ -148,6 +169,7 @@ def repeated(solve, runs, expected, clock):
     found = [run for run in found if run is not None]
     median = sorted(found, key=lambda run: run.whole)[len(found) // 2]
     median.whole = statistics.median(run.whole for run in found)
+    median.processor = statistics.median(run.processor for run in found)
     median.solve = statistics.median(run.solve for run in found)
     median.runs = len(found)
     return median, "" if median.solved else median.status
@@ -155,7 +177,7 @@ def repeated(solve, runs, expected, clock):
 
 def bench(given):
     """All cells, sizes ascending so that the cheap ones are there first."""
-    clock, cells, last, given_up = Clock(given.total), [], {}, set()
+    clock, found, last, given_up = Clock(given.total), [], {}, set()
     for size in given.sizes:
         for family in given.families:
             folder, ribs, count = tables(family, size, given.generators, given.work)
@@ -175,35 +197,40 @@ def bench(given):
                 if run:
                     last[key] = run.whole
             print(row(cell), flush=True)
-            cells.append(cell)
-    return cells
+            found.append(cell)
+    return found
 
 
 HEAD = """\
-| family | ribs | ribopt: whole s | solve s | iterations | MB | verdict | Ipopt: solve s | iterations | verdict | objective over Ipopt's | Ipopt's solve over ribopt's | over its whole run |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|"""
+| family | ribs | ribopt: whole s (processor) | solve s | iterations | MB | verdict | Ipopt: solve s (processor) | iterations | verdict | objective over Ipopt's | Ipopt's solve over ribopt's | over its whole run | processor: over its whole run |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"""
+
+
+def number(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
 def row(cell):
     """One line of the table."""
     ours, theirs = cell.ribopt, cell.ipopt
-    number = lambda value: f"{value:.3g}" if value < 1000 else f"{value:.0f}"
     first = [cell.notes["ribopt"] or "–"] + [""] * 4
     if ours:
-        once = " (one run)" if ours.runs == 1 else ""
-        first = [number(ours.whole) + once, number(ours.solve), str(ours.iterations), number(ours.megabytes), ours.status]
+        once = ", one run" if ours.runs == 1 else ""
+        first = [f"{number(ours.whole)} ({number(ours.processor)}{once})", number(ours.solve), str(ours.iterations),
+                 number(ours.megabytes), ours.status]
     second = [cell.notes["ipopt"] or "–", "", ""]
     if theirs:
-        once = " (one run)" if theirs.runs == 1 else ""
-        second = [number(theirs.solve) + once, str(theirs.iterations), theirs.status]
-    third = ["", "", ""]
+        once = ", one run" if theirs.runs == 1 else ""
+        second = [f"{number(theirs.solve)} ({number(theirs.processor)}{once})", str(theirs.iterations), theirs.status]
+    third = [""] * 4
     if ours and theirs and ours.solved and theirs.solved:
         difference = (ours.objective - theirs.objective) / abs(theirs.objective)
-        third = [f"{difference:+.1e}", number(theirs.solve / ours.solve), number(theirs.solve / ours.whole)]
+        third = [f"{difference:+.1e}", number(theirs.solve / ours.solve), number(theirs.solve / ours.whole),
+                 number(theirs.processor / ours.processor)]
     return "| " + " | ".join([cell.family, str(cell.ribs), *first, *second, *third]) + " |"
 
 
-def page(cells, given):
+def page(found, given):
     """The table with what it was measured on."""
     import casadi
     processor = platform.processor() or platform.machine()
@@ -218,16 +245,16 @@ def page(cells, given):
 Measured {datetime.date.today()} by `benches/large.py` on {os.cpu_count()} cores ({processor}{load}); medians of {given.runs} runs, of one
 where a run takes more than {ONE_RUN_FROM:.0f} s; a run ends after {given.cap:.0f} s. Ipopt (CasADi {casadi.__version__}, MUMPS, exact Hessian, its
 tolerance 1e-6) is timed for the solve alone; ribopt for the solve, and for the whole run: tables read, solved, certified, files
-written. Both begin at the same points. P2 has many local minima: there the solvers may end in different ones.
+written. Processor times, in brackets, are of all cores together. Both begin at the same points. P2 has many local minima: there the solvers may end in different ones.
 
 {HEAD}
-""" + "\n".join(row(cell) for cell in cells) + "\n"
+""" + "\n".join(row(cell) for cell in found) + "\n"
 
 
-def lines(cells, families):
+def lines(found, families):
     """Time over ribs: ribopt's whole run and Ipopt's solve of each family."""
     for family in families:
-        own = [cell for cell in cells if cell.family == family]
+        own = [cell for cell in found if cell.family == family]
         yield Line(f"{family} ribopt", family, [(c.ribs, c.ribopt.whole) for c in own if c.ribopt and c.ribopt.solved])
         yield Line(f"{family} Ipopt", family, [(c.ribs, c.ipopt.solve) for c in own if c.ipopt and c.ipopt.solved], dashed=True)
 
@@ -242,22 +269,25 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("ribopt")
     arguments.add_argument("generators")
-    arguments.add_argument("--families", nargs="+", default=["P0", "P1", "P2", "P3"])
+    arguments.add_argument("--families", nargs="+", choices=["P0", "P1", "P2", "P3", *STRUCTURES],
+                           default=["P0", "P1", "P2", "P3", *STRUCTURES])
     arguments.add_argument("--sizes", nargs="+", type=int, default=[10**3, 10**4, 10**5, 10**6])
     arguments.add_argument("--runs", type=int, default=3)
     arguments.add_argument("--cap", type=float, default=300)
     arguments.add_argument("--total", type=float, help="minutes for the whole, for example 20")
     arguments.add_argument("--work", default="large-work")
-    arguments.add_argument("--table", default=os.path.join(HERE, "results", "large.md"))
-    arguments.add_argument("--plot", default=os.path.join(HERE, "..", "docs", "large.svg"))
+    arguments.add_argument("--table", help="where to write the table, for example benches/results/large.md")
+    arguments.add_argument("--plot", help="where to write the plot, for example docs/large.svg")
     given = arguments.parse_args()
     given.ribopt, given.generators, given.work = (os.path.abspath(path) for path in (given.ribopt, given.generators, given.work))
     given.sizes.sort()
     print(HEAD, flush=True)
-    cells = bench(given)
-    save(given.table, page(cells, given))
-    title = "Whole run of ribopt (read, solve, certify, write), solve alone of Ipopt"
-    save(given.plot, draw(list(lines(cells, given.families)), title, "ribs", "seconds"))
+    found = bench(given)
+    if given.table:
+        save(given.table, page(found, given))
+    if given.plot:
+        title = "Whole run of ribopt (read, solve, certify, write), solve alone of Ipopt"
+        save(given.plot, draw(list(lines(found, given.families)), title, "ribs", "seconds"))
 
 
 if __name__ == "__main__":

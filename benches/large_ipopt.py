@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """One large family solved by Ipopt through CasADi's wheel (MUMPS, exact sparse Hessian); prints one JSON line.
 
-usage: large_ipopt.py P0|P1|P2|P3 SIZE GENERATORS [--limit SECONDS] [--tolerance T]       (pip install casadi numpy scipy)
+usage: large_ipopt.py P0|P1|P2|P3|lattice|grillage SIZE GENERATORS [--limit SECONDS] [--tolerance T]       (pip install casadi numpy scipy)
 
-SIZE is the number of ribs, of P3 the nodes along an edge. GENERATORS holds ribs.py and grid.py, whose data are used. P3 is stated in
-the logarithms of its variables, as ribopt solves it; the others in the variables themselves.
+SIZE is the number of ribs, of P3 the nodes along an edge, of structures the cells along one. GENERATORS holds ribs.py and grid.py, whose
+data are used. P3 is stated in the logarithms of its variables, as ribopt solves it; the others in the variables themselves, structures
+with their displacements beside their sizes.
 """
 import argparse
 import json
@@ -13,6 +14,8 @@ import time
 
 import casadi as ca
 import numpy as np
+
+from structure_families import FAMILIES
 
 
 def frusta(length, first, second):
@@ -64,20 +67,29 @@ def grid(model):
 
 
 def problem(family, size):
-    """Variables, objective, rows ≤ 0, start and bounds."""
+    """Variables, objective, rows and their limits, start and bounds."""
+    if family in FAMILIES:
+        return FAMILIES[family](size).statement()
+    x, objective, rows, start, lower, upper = stated(family, size)
+    g = ca.vertcat(*rows) if rows else ca.SX(0, 1)
+    return x, objective, g, -np.inf, 0, start, lower, upper
+
+
+def stated(family, size):
+    """Variables, objective, rows ≤ 0, start and bounds of a rib network."""
     if family == "P3":
         from grid import Grid, LOWER, UPPER
         model = Grid(size)
         return grid(model) + (np.log(model.start.ravel()), np.log(LOWER), np.log(UPPER))
     from ribs import Ribs
     model = Ribs(family, size)
-    stated = lines(model) if family == "P2" else sections(model)
-    return stated + (model.x0, model.lb, model.ub)
+    own = lines(model) if family == "P2" else sections(model)
+    return own + (model.x0, model.lb, model.ub)
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("family", choices=["P0", "P1", "P2", "P3"])
+    arguments.add_argument("family", choices=["P0", "P1", "P2", "P3", *FAMILIES])
     arguments.add_argument("size", type=int)
     arguments.add_argument("generators")
     arguments.add_argument("--limit", type=float, default=300)
@@ -85,15 +97,16 @@ def main():
     given = arguments.parse_args()
     sys.path.insert(0, given.generators)
     begun = time.time()
-    x, objective, rows, start, lower, upper = problem(given.family, given.size)
+    x, objective, rows, row_lower, row_upper, start, lower, upper = problem(given.family, given.size)
     options = {"print_time": False, "ipopt": {"tol": given.tolerance, "print_level": 0, "sb": "yes",
                                               "max_wall_time": given.limit, "max_iter": 5000}}
-    solver = ca.nlpsol("solver", "ipopt", {"x": x, "f": objective, "g": ca.vertcat(*rows) if rows else ca.SX(0, 1)}, options)
-    built = time.time()
-    found = solver(x0=start, lbx=lower, ubx=upper, lbg=-np.inf, ubg=0)
-    seconds, statistics = time.time() - built, solver.stats()
-    violation = float(np.max(np.array(found["g"]), initial=0.0))
-    print(json.dumps({"build": built - begun, "seconds": seconds, "iterations": statistics["iter_count"],
+    solver = ca.nlpsol("solver", "ipopt", {"x": x, "f": objective, "g": rows}, options)
+    built, used = time.time(), time.process_time()
+    found = solver(x0=start, lbx=lower, ubx=upper, lbg=row_lower, ubg=row_upper)
+    seconds, processor, statistics = time.time() - built, time.process_time() - used, solver.stats()
+    values = np.array(found["g"]).ravel()
+    violation = float(np.max(np.concatenate([values - row_upper, row_lower - values]), initial=0.0))
+    print(json.dumps({"build": built - begun, "seconds": seconds, "processor": processor, "iterations": statistics["iter_count"],
                       "status": statistics["return_status"], "objective": float(found["f"]), "violation": violation}))
 
 

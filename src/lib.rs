@@ -33,7 +33,7 @@
 //!
 //! # The rooms, in reading order
 //!
-//! Arrows point down only; `tests/arrows.rs` holds them, and `tests/circles.rs` that the files of a room form no circle.
+//! Arrows point down only; `tests/repository/arrows.rs` holds them, and `tests/repository/circles.rs` that the files of a room form no circle.
 //! `docs/architecture.md` follows a constraint and a bound from the file to the report, `docs/glossary.md` says what every word means.
 //! “note (2.3.1)” in comments is row 2.3.1 of `docs/formulas.md`, which holds every formula with its published source.
 //!

@@ -1,6 +1,9 @@
 //! Structures against closed forms.
 
 mod models;
+mod modes;
+mod tasks;
+mod trusses;
 mod unchanged;
 
 use std::fs;

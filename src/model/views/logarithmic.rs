@@ -160,13 +160,15 @@ impl Substitution for Logarithmic {
         }
         let x = self.outward(z);
         let (own, users) = (Slopes::of(self.model.as_ref(), &x)?, Slopes::of(user, &x)?);
-        let factor = Slopes::share(&own.objective, &users.objective)?;
+        let factor = share(dot(&own.objective, &users.objective), dot(&own.objective, &own.objective))?;
         let one = |i: usize| {
             if y[i] == 0.0 {
                 return Some(0.0);
             }
             let logarithm = if self.monomial[i] { own.values[i].recip() } else { 1.0 };
-            let share = Slopes::share(&users.row(user.meta(), i), &own.row(self.model.meta(), i))?;
+            let row = users.row(user.meta(), i);
+            let along = row.clone().map(|(_, slope)| slope * slope).sum();
+            let share = share(common(row, own.row(self.model.meta(), i)), along)?;
             Some(y[i] * factor * logarithm * share)
         };
         (0..y.len()).map(one).collect()
@@ -193,20 +195,32 @@ impl Slopes {
         Some(Slopes { x: x.to_vec(), objective, values, jacobian })
     }
 
-    fn row(&self, meta: &Meta, i: usize) -> Vec<f64> {
-        let mut row = vec![0.0; self.x.len()];
-        for at in meta.jacobian.range(i) {
-            let j = meta.jacobian.columns[at] as usize;
-            row[j] = self.jacobian[at] * self.x[j];
-        }
-        row
+    /// The row's slopes by variable, ascending.
+    fn row<'s>(&'s self, meta: &'s Meta, i: usize) -> impl Iterator<Item = (u32, f64)> + Clone + 's {
+        meta.jacobian.range(i).map(|at| {
+            let j = meta.jacobian.columns[at];
+            (j, self.jacobian[at] * self.x[j as usize])
+        })
     }
+}
 
-    /// t of the t·a that is nearest to b; `None` where a is no direction.
-    fn share(a: &[f64], b: &[f64]) -> Option<f64> {
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        Some(product(a, b) / product(a, a)).filter(|share| share.is_finite())
+/// t of the t·a that is nearest to b, by a·b and a·a; `None` where a is no direction.
+fn share(product: f64, square: f64) -> Option<f64> {
+    Some(product / square).filter(|share| share.is_finite())
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// a·b of two sparse vectors by ascending places.
+fn common(a: impl Iterator<Item = (u32, f64)>, b: impl Iterator<Item = (u32, f64)>) -> f64 {
+    let (mut b, mut sum) = (b.peekable(), 0.0);
+    for (place, value) in a {
+        while b.next_if(|&(other, _)| other < place).is_some() {}
+        sum += b.next_if(|&(other, _)| other == place).map_or(0.0, |(_, other)| value * other);
     }
+    sum
 }
 
 impl Model for Logarithmic {

@@ -51,24 +51,16 @@ impl Walk<'_, '_> {
         let offers = |kind: &&dyn sections::Kind| kind.properties().iter().any(|known| *known == name || *known == base);
         let offered = match kind.and_then(sections::kind) {
             Some(kind) => offers(&kind),
-            None => self.kinds().iter().any(offers),
+            None => self.kinds.iter().any(offers),
         };
         if !offered {
             return self.datum(Collection::Sections, name);
         }
-        let only = self.kinds().into_iter().find(|_| kind.is_none()).map(|kind| kind.name());
+        let only = self.kinds.first().filter(|_| kind.is_none()).map(|kind| kind.name());
         match property(base, kind.or(only)) {
             Some(power) => Dimension::whole([power, 0, 0, 0]).into(),
             None => self.unknown(format!("property: {base}")),
         }
-    }
-
-    /// Kinds of the file's sections.
-    fn kinds(&self) -> Vec<&'static dyn sections::Kind> {
-        let mut forms = self.assembly.problem.sections.form.clone();
-        forms.sort_unstable();
-        forms.dedup();
-        forms.into_iter().map(sections::kind_of).collect()
     }
 
     /// Whether items of this collection have a number of this name of their own.
@@ -76,7 +68,7 @@ impl Walk<'_, '_> {
         let columns = self.assembly.problem.columns(holder);
         let is_datum = columns.iter().any(|column| column.name.split('[').next() == Some(name));
         let is_property = match holder {
-            Collection::Sections => self.kinds().iter().any(|kind| kind.properties().contains(&name)),
+            Collection::Sections => self.kinds.iter().any(|kind| kind.properties().contains(&name)),
             Collection::Ribs => ["length", "volume"].contains(&name),
             Collection::Nodes => false,
         };

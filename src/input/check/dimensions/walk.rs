@@ -1,6 +1,6 @@
 //! The dimension of an expression, and the equations that it brings.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::super::Assembly;
 use crate::expression::Span;
@@ -10,6 +10,7 @@ use crate::input::source::{Place, Written};
 use crate::problem::Formula;
 use crate::problem::names::Entity;
 use crate::problem::resolve::Value;
+use crate::sections;
 use crate::units::inference::{Form, Inference};
 use crate::units::{Dimension, Ratio, meant_by};
 
@@ -30,6 +31,8 @@ pub(super) struct Disagreement {
 /// Goes through the file.
 pub(super) struct Walk<'a, 's> {
     pub assembly: &'a Assembly<'s>,
+    /// Kinds of the file's sections.
+    pub kinds: Vec<&'static dyn sections::Kind>,
     pub inference: Inference,
     /// What rows measure, by the names of their constraints; and the objective.
     pub rows: Vec<(String, Form)>,
@@ -49,7 +52,9 @@ impl<'a, 's> Walk<'a, 's> {
         let (inference, indices) = (Inference::default(), Vec::new());
         let (factors, odd_factors, disagreements) = (Vec::new(), Vec::new(), Vec::new());
         let (rows, objective, unknowns) = (Vec::new(), None, HashMap::new());
-        Walk { assembly, inference, rows, objective, indices, unknowns, factors, odd_factors, disagreements }
+        let kinds: BTreeSet<u16> = assembly.problem.sections.form.iter().copied().collect();
+        let kinds = kinds.into_iter().map(sections::kind_of).collect();
+        Walk { assembly, kinds, inference, rows, objective, indices, unknowns, factors, odd_factors, disagreements }
     }
 
     /// What cannot be, and what is doubtful.

@@ -1,13 +1,11 @@
 //! What an office needs of a run: units in every report, lists in tables, a schedule as a workbook, hints.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use super::support::workbook::part;
 use serde_json::Value;
-use support::workbook::part;
 
 fn ribopt(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ribopt")).current_dir(folder).args(arguments).output().unwrap()

@@ -1,7 +1,5 @@
 //! The whole program on a problem given as text.
 
-#![allow(dead_code)] // every test file uses its own share
-
 use std::fs;
 use std::process::Command;
 

@@ -1,14 +1,12 @@
 //! `solve --saf`: sheets and columns of the Structural Analysis Format 2.2 (the format's published documentation), references that lead
 //! somewhere, and what it has no word for.
 
-mod support;
-
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use support::workbook::{sheet, sheet_names};
+use super::support::workbook::{sheet, sheet_names};
 
 /// Sheets with the columns that are required in every row, and those that are there in some.
 const SAF: [(&str, &[&str], &[&str]); 16] = [
@@ -86,7 +84,7 @@ const REFERENCES: [(&str, &str, &str); 14] = [
 ];
 
 /// A plane frame with every kind of load and section that the format has a word for.
-const FRAME: &str = include_str!("data/saf-frame.toml");
+const FRAME: &str = include_str!("../data/saf-frame.toml");
 
 fn ribopt(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ribopt")).current_dir(folder).args(arguments).output().unwrap()

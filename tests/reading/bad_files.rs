@@ -1,5 +1,5 @@
 //! Every file in `tests/bad` is refused with exactly the message beside it (`NAME.expected`).
-//! `UPDATE_EXPECTED=1 cargo test --test bad_files` writes the messages anew; read the difference before keeping it.
+//! `UPDATE_EXPECTED=1 cargo test --test reading bad_files` writes the messages anew; read the difference before keeping it.
 
 use std::fs;
 use std::path::{Path, PathBuf};

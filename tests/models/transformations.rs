@@ -1,15 +1,13 @@
 //! Whatever is restated for a solver says what the user wrote: kinks replaced by auxiliaries, logarithms of variables, flange
 //! thicknesses. At random points of the box, objective, rows and feasibility of the transformed model are the original's.
 
-mod support;
-
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
+use super::support::{name, problem_files, read};
 use ribopt::model::{Model, Substitution};
 use ribopt::run::Subject;
-use support::{name, problem_files, read};
 
 /// Relative to the size of the values compared: what rounding of a few operations amounts to.
 const ROUNDING: f64 = 1e-9;

@@ -1,12 +1,9 @@
 //! What NLopt cannot take, through the whole program: no crash, no run without end.
-#![cfg(feature = "nlopt")]
-
-mod whole_program;
 
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use whole_program::solve_with;
+use super::whole_program::solve_with;
 
 /// What `--max-seconds 2` may take on a machine that does much else.
 const SOON: Duration = Duration::from_secs(30);

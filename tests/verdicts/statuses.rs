@@ -1,13 +1,11 @@
-//! Verdicts as a user meets them: small files, the whole program, exit codes and what is said.
-
-mod whole_program;
+//! What a run says, and the exit code it ends with.
 
 use std::fs;
 use std::process::Command;
 
+use super::whole_program::{solve, solve_with};
 use serde_json::Value;
 use tempfile::TempDir;
-use whole_program::{solve, solve_with};
 
 /// A file from an objective, lines of variables, and requirements named r1, r2, ….
 fn problem(objective: &str, variables: &str, rows: &[&str]) -> String {

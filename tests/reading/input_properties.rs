@@ -30,8 +30,8 @@ fn is_sound(outcome: &Result<Input, Mistakes>) {
     }
 }
 
-const WHOLE: &str = include_str!("../problems/h-beam-row.toml");
-const RIBS: &str = include_str!("../problems/haunched-floor-rib.toml");
+const WHOLE: &str = include_str!("../../problems/h-beam-row.toml");
+const RIBS: &str = include_str!("../../problems/haunched-floor-rib.toml");
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]

@@ -1,9 +1,7 @@
 //! The same design in other units, with rows and variables of extreme size, and with an offset on the objective.
 
-mod whole_program;
-
+use super::whole_program::solve;
 use serde_json::Value;
-use whole_program::solve;
 
 fn value(result: &Value, name: &str) -> f64 {
     result["variables"][name].as_f64().unwrap()
