@@ -132,9 +132,12 @@ impl Symmetric {
 
     /// The same to the accuracy of the factors alone: for steps that are corrected by further ones.
     pub fn solve_once(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
-        let Solver::Sparse(solver) = &self.solver else { return self.solve(right) };
         let mut x = vec![0.0; right.len()];
-        solver.solve_once(right, &mut x)?;
+        match &self.solver {
+            Solver::Sparse(solver) => solver.solve_once(right, &mut x)?,
+            Solver::Congruent(solver) => solver.solve_once(right, &mut x)?,
+            _ => return self.solve(right),
+        }
         Ok(x)
     }
 }

@@ -15,20 +15,31 @@ pub(super) fn jacobian_pattern(own: &Meta, states: States) -> Pattern {
     for row in states.first_row..own.rows() {
         own.jacobian.row(row).iter().filter(|&&j| (j as usize) < n).for_each(|&j| through[j as usize] = true);
     }
-    let mut positions = Vec::new();
+    let through: Vec<u32> = (0..n as u32).filter(|&j| through[j as usize]).collect();
+    // Written down as it stands, row by row: with thousands of rows and variables there is a lot of it.
+    let mut pattern = Pattern::default();
     for row in 0..states.first_row {
         let own_columns = own.jacobian.row(row).iter().copied().filter(|&j| (j as usize) < n);
-        positions.extend(own_columns.map(|j| (row as u32, j)));
+        let first = pattern.columns.len();
+        pattern.columns.extend(own_columns);
         if !knows_no_state(own, row, n) {
-            positions.extend((0..n as u32).filter(|&j| through[j as usize]).map(|j| (row as u32, j)));
+            let unknown = pattern.columns.split_off(first).into_iter().filter(|j| through.binary_search(j).is_err());
+            let mut all: Vec<u32> = unknown.chain(through.iter().copied()).collect();
+            all.sort_unstable();
+            pattern.columns.append(&mut all);
         }
+        pattern.offsets.push(pattern.columns.len());
     }
-    Pattern::from_positions(states.first_row, &mut positions)
+    pattern
 }
 
 pub(super) fn dense_lower(n: usize) -> Pattern {
-    let mut positions = (0..n as u32).flat_map(|row| (0..=row).map(move |column| (row, column))).collect();
-    Pattern::from_positions(n, &mut positions)
+    let mut pattern = Pattern::default();
+    for row in 0..n as u32 {
+        pattern.columns.extend(0..=row);
+        pattern.offsets.push(pattern.columns.len());
+    }
+    pattern
 }
 
 /// [I U]ᵀ·H·[I; U] for the lower triangle of H over design and states, as a dense lower triangle by rows.
