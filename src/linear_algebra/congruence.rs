@@ -42,6 +42,11 @@ impl CongruentSolver {
         Self::with_pivoting(offsets, columns, Pivoting::Static)
     }
 
+    /// The same as [`CongruentSolver::new`] for many matrices of one pattern that has small separators: nested dissection.
+    pub fn dissected(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::Dissected)
+    }
+
     fn with_pivoting(offsets: Vec<usize>, columns: Vec<u32>, pivoting: Pivoting) -> Result<Self, FactorizationError> {
         let plain = SymmetricSolver::with_pivoting(&offsets, &columns, pivoting)?;
         Ok(CongruentSolver { pivoting, offsets, columns, basis: Basis::Unknown(plain) })

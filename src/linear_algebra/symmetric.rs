@@ -33,6 +33,8 @@ pub struct SymmetricSolver {
 pub(super) enum Pivoting {
     /// By size.
     Threshold,
+    /// By size, in an order by nested dissection.
+    Dissected,
     /// Not at all, as long as that goes well.
     Static,
 }
@@ -85,6 +87,7 @@ impl SymmetricSolver {
         } else {
             match pivoting {
                 Pivoting::Threshold => Method::Sparse(SparseSolver::default()),
+                Pivoting::Dissected => Method::Sparse(SparseSolver::dissected()),
                 Pivoting::Static => Method::QuasiDefinite(Box::default()),
             }
         };

@@ -1,8 +1,10 @@
-//! The KKT matrix with the short inequality rows eliminated: W + Σ + AᵀΔA over the variables, bordered by the rows left.
+//! The KKT matrix with inequality rows of few variables eliminated: W + Σ + AᵀΔA over the variables, bordered by the rows left.
 //!
 //! An inequality row has −1/D on its diagonal, a pivot that makes no fill where the row has few variables. What is left is of
 //! half the order or less. Where D is very large (an active limit) Δ is smaller than D, so that W is not lost in rounding; solutions
 //! are refined with the whole matrix, which makes up for that and for the rounding of the condensed one.
+
+use std::collections::HashMap;
 
 use super::super::parameters::PARAMETERS;
 use super::super::vectors::norm_max;
@@ -24,6 +26,10 @@ pub(super) struct Condensed {
     kept_diagonal: Vec<usize>,
     condensed: Vec<usize>,
     kept: Vec<usize>,
+    /// Of the rows kept those that are equalities.
+    equalities: Vec<usize>,
+    /// What holds each variable without the condensed rows.
+    stiffness: Vec<f64>,
     /// Δ of each condensed row.
     weights: Vec<f64>,
     right: Vec<f64>,
@@ -35,8 +41,10 @@ pub(super) struct Condensed {
 impl Condensed {
     /// The condensed form of a large system; `None` where there is little to condense. `slack` tells the inequality rows.
     pub fn new(system: &System, slack: &[Option<usize>]) -> Option<Self> {
-        let is_short = |&i: &usize| slack[i].is_some() && system.jacobian.range(i).len() <= PARAMETERS.condensing.longest_row;
-        let (condensed, kept): (Vec<usize>, Vec<usize>) = (0..slack.len()).partition(is_short);
+        let alike = rows_alike(system, slack);
+        let pays = |&i: &usize| slack[i].is_some_and(|_| pays(system.jacobian.row(i).len(), alike[system.jacobian.row(i)]));
+        let (condensed, kept): (Vec<usize>, Vec<usize>) = (0..slack.len()).partition(pays);
+        let equalities: Vec<usize> = kept.iter().copied().filter(|&i| slack[i].is_none()).collect();
         let n = system.primal.len();
         if system.order() < PARAMETERS.condensing.least_order || condensed.len() < kept.len() {
             return None;
@@ -58,9 +66,16 @@ impl Condensed {
             residual: vec![0.0; system.order()],
             correction: vec![0.0; system.order()],
             values: vec![0.0; pattern.len()],
-            solver: CongruentSolver::for_quasi_definite(pattern.offsets, pattern.columns).ok()?,
+            // Beside equalities the matrix is not quasi-definite.
+            solver: match equalities.is_empty() {
+                true => CongruentSolver::for_quasi_definite(pattern.offsets, pattern.columns),
+                false => CongruentSolver::dissected(pattern.offsets, pattern.columns),
+            }
+            .ok()?,
             condensed,
             kept,
+            equalities,
+            stiffness: vec![0.0; n],
         })
     }
 
@@ -124,11 +139,18 @@ impl Condensed {
 
     /// Δ of every condensed row: D, but for limits of stiffness.
     fn weigh(&mut self, system: &System) {
+        let jacobian = &system.jacobian;
+        for (stiffness, &place) in self.stiffness.iter_mut().zip(&self.diagonal_places) {
+            *stiffness = self.values[place].abs().max(PARAMETERS.condensing.least_curvature);
+        }
+        // A variable without curvature is held by its equations.
+        for at in self.equalities.iter().flat_map(|&i| jacobian.range(i)) {
+            let stiffness = &mut self.stiffness[jacobian.columns[at] as usize];
+            *stiffness = stiffness.max(system.jacobian_values[at].abs());
+        }
         for (&i, weight) in self.condensed.iter().zip(&mut self.weights) {
-            let stiffest = system.jacobian.range(i).fold(f64::INFINITY, |least: f64, at| {
-                let curvature = self.values[self.diagonal_places[system.jacobian.columns[at] as usize]].abs();
-                least.min(curvature.max(PARAMETERS.condensing.least_curvature) / system.jacobian_values[at].powi(2))
-            });
+            let held = |at: usize| self.stiffness[jacobian.columns[at] as usize] / system.jacobian_values[at].powi(2);
+            let stiffest = jacobian.range(i).map(held).fold(f64::INFINITY, f64::min);
             *weight = (1.0 / system.dual[i]).min(PARAMETERS.condensing.stiffest * stiffest);
         }
     }
@@ -156,6 +178,19 @@ impl Condensed {
         }
         Ok(())
     }
+}
+
+/// How many inequality rows have the same variables.
+fn rows_alike<'s>(system: &'s System, slack: &[Option<usize>]) -> HashMap<&'s [u32], usize> {
+    let mut alike = HashMap::new();
+    let inequalities = (0..slack.len()).filter(|&i| slack[i].is_some());
+    inequalities.for_each(|i| *alike.entry(system.jacobian.row(i)).or_default() += 1);
+    alike
+}
+
+/// Whether rows of the same variables make no more products of two of these than they have entries, pivots and right-hand sides.
+fn pays(variables: usize, rows: usize) -> bool {
+    variables * variables.saturating_sub(1) / 2 <= rows * (variables + 2)
 }
 
 /// Positions of the condensed matrix: W, the products within condensed rows, the rows kept, the diagonal.

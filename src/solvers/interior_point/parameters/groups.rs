@@ -215,8 +215,6 @@ impl Attempts {
 /// The KKT matrix with its short inequality rows eliminated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condensing {
-    /// Rows with more variables than this are left in the matrix.
-    pub longest_row: usize,
     /// Smaller systems are factorised as they are.
     pub least_order: usize,
     /// Δ·a² is at most this multiple of the curvature the row's variables have without it: half of the digits for each,
@@ -239,7 +237,6 @@ pub struct Condensing {
 
 impl Condensing {
     pub(super) const DEFAULT: Self = Condensing {
-        longest_row: 4,
         least_order: 2000,
         stiffest: 1e8,
         least_curvature: 1e-10,
