@@ -65,6 +65,16 @@ pub(in crate::certificate) fn confirm(
     walk.is_ok_and(|walk| walk.lower_point(std::iter::once(&unit)).is_some())
 }
 
+/// Where growing steps along a direction lead.
+enum Way {
+    /// To a lower point: ten times the way there.
+    Lower(Vec<f64>),
+    /// Up, or nowhere.
+    Ends,
+    /// Away from the limits, however short.
+    Barred,
+}
+
 struct Walk<'w, 'p> {
     point: &'w Point<'p>,
     multipliers: &'w Multipliers,
@@ -131,11 +141,19 @@ impl<'w, 'p> Walk<'w, 'p> {
 
     fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Option<Vec<f64>> {
         let mut within_time = directions.take_while(|_| !self.point.is_over());
-        within_time.find_map(|direction| self.along(direction, 1.0).or_else(|| self.along(direction, -1.0)))
+        within_time.find_map(|direction| match self.along(direction, 1.0) {
+            Way::Lower(way) => Some(way),
+            // Rows bend by vᵀCv whichever way v is followed.
+            Way::Barred => None,
+            Way::Ends => match self.along(direction, -1.0) {
+                Way::Lower(way) => Some(way),
+                Way::Barred | Way::Ends => None,
+            },
+        })
     }
 
-    /// Growing steps until the objective changes: the way to a lower point, `None` where it rises first.
-    fn along(&self, direction: &[f64], sign: f64) -> Option<Vec<f64>> {
+    /// Growing steps until the objective changes.
+    fn along(&self, direction: &[f64], sign: f64) -> Way {
         let point = self.point;
         let curvature = self.hessian.bend(point, direction);
         let along = |slopes: &Vec<f64>| slopes.iter().zip(direction).map(|(slope, v)| slope * v).sum::<f64>().abs();
@@ -146,7 +164,7 @@ impl<'w, 'p> Walk<'w, 'p> {
         let is_near = |step: &f64| *step <= STEPS[0] || (*step <= longest && curvature * step <= NEAR * accepted);
         for step in STEPS.into_iter().take_while(is_near) {
             if point.is_over() {
-                return None;
+                return Way::Ends;
             }
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
             let Some(x) = self.corrected(far, step) else { continue };
@@ -154,20 +172,20 @@ impl<'w, 'p> Walk<'w, 'p> {
             if !trial.is_feasible(point, self.tolerances.constraint) {
                 // To first order what is feasible is a cone: where the shortest step cannot be drawn back to the limits no longer one can.
                 if step == STEPS[0] {
-                    return None;
+                    return Way::Barred;
                 }
                 continue;
             }
             let value = trial.penalised(point, self.multipliers);
             let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
             if value < self.here.0 - explained {
-                return Some(x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect());
+                return Way::Lower(x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect());
             }
             if value > self.here.1 + explained {
-                return None;
+                return Way::Ends;
             }
         }
-        None
+        Way::Ends
     }
 
     /// What the point's own slope may make of the way to x (of a convex function no fall is deeper), and rounding.
