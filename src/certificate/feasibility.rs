@@ -5,7 +5,8 @@ use super::known_sizes;
 use super::point::{Origin, Point};
 use super::residuals::{Place, Worst, worse};
 use super::second_order::Kkt;
-use crate::certificate::parameters::feasibility::{BESIDE, FAR, LARGEST, PASSES, ROUNDINGS, STEPS, WORTH_A_LOOK};
+use crate::certificate::parameters::feasibility::{BESIDE, LARGEST, PASSES, ROUNDINGS, STEPS, TOLD, WORTH_A_LOOK};
+use crate::model::Model;
 
 /// How well a point meets rows and bounds.
 pub(super) struct Feasibility {
@@ -102,7 +103,7 @@ fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     if (0..point.rows.len()).all(|i| point.row_violation(i) == 0.0) {
         return None;
     }
-    let near = near_scales(point);
+    let near = known_sizes::near_sizes(point);
     let worst = worst(point, &near);
     if worst <= tolerance {
         return None;
@@ -113,15 +114,10 @@ fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     }
 }
 
-/// The variables' sizes with those far away held back.
-fn near_scales(point: &Point<'_>) -> Vec<f64> {
-    let known = known_sizes::known_sizes(point.origin, point.x, &point.jacobian);
-    point.sizes.iter().zip(known).map(|(d, known)| d.min(FAR * known)).collect()
-}
-
-/// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), less what rounding explains.
+/// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), the slopes being those where no variable is farther away than that, less what
+/// rounding explains: of a row whose rounding is more than a share of that measure nothing is known, and a violation is one.
 fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
-    let meta = point.meta();
+    let (meta, slopes) = (point.meta(), held_back(point, near));
     let one = |i: usize| {
         let (violation, limit) = point.row_excess(i);
         if violation <= 0.0 {
@@ -130,12 +126,21 @@ fn worst(point: &Point<'_>, near: &[f64]) -> f64 {
         let (mut slope, mut terms) = (0.0f64, limit.abs());
         for at in meta.jacobian.range(i) {
             let j = meta.jacobian.columns[at] as usize;
-            slope = slope.max((point.jacobian[at] * near[j]).abs());
+            slope = slope.max((slopes[at] * near[j]).abs());
             terms += (point.jacobian[at] * point.x[j]).abs();
         }
-        (violation - ROUNDINGS * terms).max(0.0) / limit.abs().max(slope).max(f64::MIN_POSITIVE)
+        let measure = limit.abs().max(slope).max(f64::MIN_POSITIVE);
+        (violation - (ROUNDINGS * terms).min(TOLD * measure)).max(0.0) / measure
     };
     (0..point.rows.len()).map(one).fold(0.0, f64::max)
+}
+
+/// The Jacobian where variables far away are held back; that at the point where the model has none there.
+fn held_back(point: &Point<'_>, near: &[f64]) -> Vec<f64> {
+    let x: Vec<f64> = point.x.iter().zip(near).map(|(x, near)| x.clamp(-near, *near)).collect();
+    let mut jacobian = vec![0.0; point.jacobian.len()];
+    let is_there = x == point.x || point.origin.model.jacobian(&x, &mut jacobian).is_err();
+    if is_there { point.jacobian.clone() } else { jacobian }
 }
 
 /// One Newton step, the shortest in the variables' sizes, to the limits of the rows wanted; variables that it would take past a

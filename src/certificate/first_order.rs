@@ -31,6 +31,16 @@ pub(super) fn found(
             (found, certificate) = (unguided, own);
         }
     }
+    if certificate.is_feasible(tolerances)
+        && !is_stationary(&certificate, tolerances)
+        && let Some(refined) = multipliers::refined(point, &found)
+    {
+        // Beside columns nearly parallel (a fixed variable's) normal equations leave multipliers right to half their digits.
+        let own = of(point, &refined, feasibility, tolerances);
+        if is_stationary(&own, tolerances) {
+            (found, certificate) = (refined, own);
+        }
+    }
     if certificate.is_feasible(tolerances) && !is_stationary(&certificate, tolerances) {
         // Without second derivatives the slope alone has to do.
         point.add_curvature().unwrap_or_default();

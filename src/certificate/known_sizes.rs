@@ -1,8 +1,9 @@
 //! What is known of the variables' sizes (docs/certificate.md, «Measures»): at the point, or, where a variable is smaller than that,
 //! from limits of rows, starts and bounds.
 
-use super::point::Origin;
+use super::point::{Origin, Point};
 use super::scales::{largest_limit, moved};
+use crate::certificate::parameters::feasibility::FAR;
 use crate::certificate::parameters::sizes::{BENT, SHRINKINGS, SHRUNK, UNTOLD};
 use crate::model::{Meta, Model};
 
@@ -28,6 +29,12 @@ fn may_be_zero(meta: &Meta, j: usize) -> bool {
 /// tells a size also beside 0, where it has no slope.
 pub(super) fn known_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> Vec<f64> {
     told_sizes(origin, x, jacobian).into_iter().map(or_one).collect()
+}
+
+/// The sizes of the variables with those far away held back to [`FAR`] times what is known of them.
+pub(super) fn near_sizes(point: &Point<'_>) -> Vec<f64> {
+    let known = known_sizes(point.origin, point.x, &point.jacobian);
+    point.sizes.iter().zip(known).map(|(d, known)| d.min(FAR * known)).collect()
 }
 
 /// The same, infinite where nothing tells.
@@ -117,7 +124,6 @@ fn declared_size(meta: &Meta, j: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::point::Point;
     use crate::model::sample::Sample;
 
     fn sizes(model: &Sample, x: &[f64]) -> Vec<f64> {

@@ -2,6 +2,7 @@
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
+mod asymptote;
 mod candidates;
 mod farkas;
 mod feasibility;
@@ -35,7 +36,7 @@ use std::time::Instant;
 use multipliers::Multipliers;
 use newton::Newton;
 use point::{Origin, Point};
-use residuals::{beyond_rounding, lost_in_rounding, objective_lost};
+use residuals::{beyond_rounding, lost_in_rounding, objective_lost, slope_far_out};
 use runaway::Runaway;
 use second_order::{Active, Curvature, Hessian};
 
@@ -145,7 +146,8 @@ impl<'a> Certifier<'a> {
                 point.add_curvature()?;
                 point.relies_on_curvature = true;
             }
-            certificate.dual_infeasibility = certificate.dual_infeasibility.max(objective_lost(&point));
+            let lost = objective_lost(&point).max(slope_far_out(&point, &multipliers)?);
+            certificate.dual_infeasibility = certificate.dual_infeasibility.max(lost);
         }
         certificate.scope = Extent::of(self.class);
         let multipliers = self.with_idle_rows(&mut point, multipliers, &certificate)?;

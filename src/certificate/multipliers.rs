@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Owner};
 use super::point::Point;
+use crate::certificate::parameters::multipliers::ROUNDINGS;
 use crate::linear_algebra::signed_least_squares::{self, Column, NormalEquations};
 use crate::model::components::Partition;
 
@@ -76,10 +77,13 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
     }
     let gradient: Vec<f64> = point.gradient.iter().zip(&point.sizes).map(|(g, d)| g * d / scale).collect();
     let found = signed_least_squares::nearest(&gradient, &system.columns(), &centre).ok()?;
+    // What is none may come out of either sign: rounding of the largest.
+    let rounding = ROUNDINGS * found.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let mut rows = vec![0.0; multipliers.rows.len()];
     for (candidate, value) in system.candidates.iter().zip(found) {
         match candidate.owner {
-            _ if candidate.sign * value < 0.0 => return None,
+            _ if candidate.sign * value < -rounding => return None,
+            _ if candidate.sign * value < 0.0 => {}
             Owner::Row(i) => rows[i] = value * scale / point.slopes[i],
             Owner::Bound(_) => {}
         }

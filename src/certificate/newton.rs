@@ -38,13 +38,36 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> N
     if free.is_empty() || free.len() + held.len() > LARGEST {
         return Newton::Stays;
     }
+    let by = |sizes: &[f64]| in_sizes(point, active, (&free, &held), (&invented, sizes), tolerance);
+    match by(point.plain_sizes()) {
+        // An invented size may be too large as well: what is seen of the variable is the least it can be.
+        Newton::Stays => seen_sizes(point, &invented).map_or(Newton::Stays, |sizes| by(&sizes)),
+        leads_on => leads_on,
+    }
+}
+
+/// The sizes with |x_j| in the place of those that are invented; `None` where that changes nothing.
+fn seen_sizes(point: &Point<'_>, invented: &[bool]) -> Option<Vec<f64>> {
+    let is_seen = |j: usize| invented[j] && point.x[j] != 0.0;
+    let size = |(j, &size): (usize, &f64)| if is_seen(j) { point.x[j].abs() } else { size };
+    (0..invented.len()).any(is_seen).then(|| point.plain_sizes().iter().enumerate().map(size).collect())
+}
+
+/// The steps, damped in these sizes.
+fn in_sizes(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    (free, held): (&[usize], &[(usize, f64)]),
+    (invented, sizes): (&[bool], &[f64]),
+    tolerance: f64,
+) -> Newton {
     let site = Site {
         model: &point.origin.model,
         x: point.x,
-        sizes: point.plain_sizes(),
-        known: point.plain_sizes(),
-        free: &free,
-        held: &held,
+        sizes,
+        known: sizes,
+        free,
+        held,
         multipliers: &active.multipliers.rows,
         is_feasible: &|_| true,
     };
@@ -54,7 +77,7 @@ pub(super) fn steps(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> N
         return Newton::Stays;
     }
     let stretched = |x: &[f64]| x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect();
-    let share = |&j: &usize| (x[j] - point.x[j]).abs() / point.plain_sizes()[j];
+    let share = |&j: &usize| (x[j] - point.x[j]).abs() / sizes[j];
     if fallen < NEARLY_ALL || free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
         return Newton::LeadsTo(stretched(&x));
     }

@@ -36,6 +36,8 @@ parameters! {
         ROUNDINGS: f64 = 64.0 * f64::EPSILON;
         /// d_j > FAR·(known size): far away; the row is measured by FAR times the known sizes.
         FAR: f64 = 10.0;
+        /// Rounding beyond TOLD·max(|limit|, slope beside known sizes) explains no violation.
+        TOLD: f64 = 1e-2;
         /// A point that meets the rows beside one far away lies within BESIDE·d_j.
         BESIDE: f64 = 1e-3;
         /// Newton steps back to the rows.
@@ -52,6 +54,8 @@ parameters! {
     multipliers {
         /// Scaled distance > REACH: with complementarity ≤ 1e−6 the multiplier would be < 1e−3.
         REACH: f64 = 1e-3;
+        /// A refined multiplier of the wrong sign that is ≤ ROUNDINGS·(the largest), in units of σ, is none.
+        ROUNDINGS: f64 = 1e3 * f64::EPSILON;
         /// A witness that leaves more than this share of σ is no start for a refinement.
         REFINABLE: f64 = 1e-2;
     }
@@ -164,6 +168,8 @@ parameters! {
 
     /// Variables that run away.
     runaway {
+        /// Level to the last digit BESIDE·d_j about the point, both ways, all derivatives 0: an asymptote (x^p is so for p > 107 only).
+        BESIDE: f64 = 1e-3;
         /// |vᵀSv| ≤ FLAT·|v|²: followed outwards.
         FLAT: f64 = 1e-3;
         /// Flat directions looked at.

@@ -93,6 +93,16 @@ impl<'a> Point<'a> {
         })
     }
 
+    /// The same point with its variables measured by other sizes.
+    pub(super) fn in_sizes(&self, sizes: Vec<f64>) -> Result<Point<'a>, EvaluationError> {
+        let mut point = Point::new(self.origin, self.x)?;
+        point.sigma = steepest(point.meta(), &point.gradient, &sizes);
+        point.steepest = point.sigma;
+        point.slopes = slopes(point.meta(), &point.jacobian, &sizes);
+        point.sizes = sizes;
+        Ok(point)
+    }
+
     /// Whether the deadline has passed.
     pub(super) fn is_late(&self) -> bool {
         self.origin.until.is_some_and(|until| Instant::now() >= until)

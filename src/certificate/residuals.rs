@@ -1,8 +1,10 @@
 //! How far a point is from first order: slopes, complementarity, and what rounding makes of them.
 
+use super::known_sizes;
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::second_order;
+use crate::certificate::parameters::newton::LOWER;
 use crate::certificate::parameters::rounding::DIGITS;
 use crate::linear_algebra::Partition;
 use crate::math::split_mix::SplitMix;
@@ -73,6 +75,20 @@ pub(super) fn last_digits(point: &Point<'_>) -> f64 {
         point.origin.model.objective(&x).map_or(0.0, |there| (there - point.objective).abs())
     };
     DIGITS.into_iter().map(change).fold(0.0, f64::max)
+}
+
+/// The slope beside the variables' known sizes, where only curvature makes it a small one and the last digits of x make more of the
+/// objective than a share of it: far down a tail all is small beside variables that have grown large, and Newton's steps, a few last
+/// digits long, tell nothing. 0 elsewhere.
+pub(super) fn slope_far_out(point: &Point<'_>, multipliers: &Multipliers) -> Result<f64, EvaluationError> {
+    let near = known_sizes::near_sizes(point);
+    let is_far = near.iter().zip(&point.sizes).any(|(near, size)| near < size);
+    if !point.relies_on_curvature || !is_far || last_digits(point) <= LOWER * point.objective.abs() {
+        return Ok(0.0);
+    }
+    let mut beside = point.in_sizes(near)?;
+    beside.add_curvature()?;
+    Ok(worst_slope(&beside, multipliers, None).1)
 }
 
 /// |multiplier|·|distance to its limit|/σ, limit by limit.

@@ -1,8 +1,8 @@
 //! Variables that run away: the point passes only because the objective flattens out, and would go on falling for ever (exp(x)
 //! towards −∞), or because a term has no value at the bound it falls towards. Such an infimum is not attained.
 
+use super::asymptote;
 use super::feasibility::{self, worst_violation};
-use super::higher_order::Trial;
 use super::known_sizes;
 use super::point::Point;
 use super::second_order::{Active, Choice, Hessian, Kkt};
@@ -10,7 +10,7 @@ use super::{Class, Tolerances};
 use crate::certificate::parameters::runaway::{
     DIRECTIONS, FAR, FLAT, FOLLOWED, LARGEST, LARGEST_FOR_DIRECTIONS, OUTWARDS, PARALLEL,
 };
-use crate::model::{EvaluationError, Model};
+use crate::model::Meta;
 use crate::recession::{self, Fall, Ray, Site, Valley};
 
 /// Variables along whose way the objective falls, however far one goes; none at a true minimum.
@@ -52,6 +52,7 @@ pub(super) fn find(
             .or_else(|| {
                 (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?
             })
+            .or_else(|| one_released(point, active, (&free, &all), dependent, tolerances))
     } else {
         follow(point, active, &directions, (&[], &[]), tolerances)
     };
@@ -59,8 +60,45 @@ pub(super) fn find(
         Some((direction, fall)) => {
             Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
         }
-        None => Runaway::settling(towards_bounds(point, tolerances.constraint)),
+        None if asymptote::is_level_about(point) => Runaway::settling(asymptote::moved_most(point)),
+        None => Runaway::settling(asymptote::towards_bounds(point, active, tolerances.constraint)),
     }
+}
+
+/// Outwards in a variable that is far from its start, with one of those that seem to rest on bounds led back to the rows, the others (slacks
+/// among them) staying where they are.
+fn one_released(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    (free, held): (&[usize], &[(usize, f64)]),
+    dependent: bool,
+    tolerances: &Tolerances,
+) -> Option<(Vec<f64>, Fall)> {
+    if !dependent || held.is_empty() {
+        return None;
+    }
+    let axes: Vec<Vec<f64>> = far_out(point, free).take(OUTWARDS).map(|j| axis(point, j)).collect();
+    let resting = (0..point.x.len()).filter(|j| !point.meta().is_fixed(*j) && !free.contains(j));
+    let mut tried = resting.take(if axes.is_empty() { 0 } else { FOLLOWED });
+    tried.find_map(|j| follow(point, active, &axes, (&[j], held), tolerances))
+}
+
+/// Open variables that are far from where they come from.
+fn far_out<'a>(point: &'a Point<'_>, free: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    let meta = point.meta();
+    let is_far = |&j: &usize| (point.x[j] - meta.start[j]).abs() > FAR * recession::size(meta.start[j]);
+    free.iter().copied().filter(|&j| is_open(meta, j)).filter(is_far)
+}
+
+fn is_open(meta: &Meta, j: usize) -> bool {
+    meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY
+}
+
+/// One size of variable j.
+fn axis(point: &Point<'_>, j: usize) -> Vec<f64> {
+    let mut axis = vec![0.0; point.x.len()];
+    axis[j] = point.plain_sizes()[j];
+    axis
 }
 
 /// Whether the class leaves it open: a posynomial that is minimised, not the inverse of one that is maximised, stays positive.
@@ -186,7 +224,7 @@ fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
 /// and from zero.
 fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: bool) -> Vec<Vec<f64>> {
     let meta = point.meta();
-    let is_open = |&j: &usize| meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY;
+    let is_open = |&j: &usize| is_open(meta, j);
     let (mut found, mut axes) = (Vec::new(), Vec::new());
     if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
         let (free, held) = (choice.loose_variables(), choice.strict_rows());
@@ -204,10 +242,7 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: 
             found.push(point.x.to_vec());
         }
         // Of limits that depend on one another, a row may only seem to hold a variable far from where it comes from.
-        let start = |j: usize| meta.start[j];
-        let is_far = |j: &usize| (point.x[*j] - start(*j)).abs() > FAR * recession::size(start(*j));
-        let followed = if dependent { OUTWARDS } else { 0 };
-        axes.extend(free.iter().copied().filter(is_open).filter(is_far).take(followed));
+        axes.extend(far_out(point, &free).take(if dependent { OUTWARDS } else { 0 }));
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));
@@ -215,42 +250,6 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: 
     }
     let mut seen = std::collections::HashSet::new();
     axes.retain(|j| seen.insert(*j));
-    found.extend(axes.into_iter().take(FOLLOWED).map(|j| {
-        let mut axis = vec![0.0; meta.variables()];
-        axis[j] = point.plain_sizes()[j];
-        axis
-    }));
+    found.extend(axes.into_iter().take(FOLLOWED).map(|j| axis(point, j)));
     found
-}
-
-/// The variables on their way to bounds where a term has no value: nothing rises as they come nearer, and the bound itself is out
-/// of reach.
-fn towards_bounds(point: &Point<'_>, tolerance: f64) -> Vec<usize> {
-    let meta = point.meta();
-    let near = |j: usize| {
-        let x = point.x[j];
-        let bound = if x - meta.lower[j] <= meta.upper[j] - x { meta.lower[j] } else { meta.upper[j] };
-        let size = bound.abs().max(point.sizes[j]);
-        (x != bound && (x - bound).abs() <= 1e-8 * size).then_some((j, bound))
-    };
-    let near: Vec<(usize, f64)> = (0..point.x.len()).filter_map(near).collect();
-    let value = |share: f64| {
-        let mut x = point.x.to_vec();
-        near.iter().for_each(|&(j, bound)| x[j] = bound + share * (x[j] - bound));
-        Trial::at(point, &x).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective)
-    };
-    let on_bounds = || {
-        let mut x = point.x.to_vec();
-        near.iter().for_each(|&(j, bound)| x[j] = bound);
-        point.origin.model.objective(&x).and_then(|_| point.origin.model.constraints(&x, &mut vec![0.0; meta.rows()]))
-    };
-    if near.is_empty() || !matches!(on_bounds(), Err(EvaluationError::Invalid { .. })) {
-        return Vec::new();
-    }
-    let level = 64.0 * f64::EPSILON * point.objective.abs();
-    // So near that no number lies between: as near as the bound itself.
-    let has_arrived = |share: f64| near.iter().all(|&(j, bound)| bound + share * (point.x[j] - bound) == bound);
-    let stays = |share: f64| has_arrived(share) || value(share).is_some_and(|f| f <= point.objective + level);
-    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(stays);
-    if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
 }

@@ -23,12 +23,14 @@ pub(super) fn invented(meta: &Meta, x: &[f64], jacobian: &[f64]) -> Vec<bool> {
     invented
 }
 
-/// The larger magnitude of row i's finite limits; 0 where it has none.
+/// The larger magnitude of row i's finite limits, less the row's constant term; 0 where it has none. On which side of a row a constant
+/// is written makes no difference.
 pub(super) fn largest_limit(meta: &Meta, i: usize) -> f64 {
+    let constant = meta.row_constants.get(i).copied().unwrap_or(0.0);
     [meta.row_lower[i], meta.row_upper[i]]
         .into_iter()
         .filter(|limit| limit.is_finite())
-        .fold(0.0, |most, limit| limit.abs().max(most))
+        .fold(0.0, |most, limit| (limit - constant).abs().max(most))
 }
 
 /// The largest terms |∂c_i/∂x_j·x_j| row by row: for linear rows their terms, for others those of their first-order form.

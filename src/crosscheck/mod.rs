@@ -242,8 +242,8 @@ fn from_feasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outco
     {
         return verdict::infeasible(session, answers, x, (conflict, true));
     }
-    if let Some(value) = settling(session, &answers, ray.as_ref())
-        && let Some(found) = multistart::attained(ledger, value)
+    if let Some(settled) = settling(session, &answers, ray.as_ref())
+        && let Some(found) = multistart::attained(ledger, settled)
     {
         let k = found.solver;
         answers[k] = observed(ledger, found);
@@ -256,12 +256,13 @@ fn from_feasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Outco
     }
 }
 
-/// The value the objective settles at as variables run off, where that is what was found; convex problems have no other minima.
-fn settling(session: &Session<'_>, answers: &[Answer], ray: Option<&Ray>) -> Option<f64> {
+/// The value the objective settles at as variables run off, and where, if that is what was found; convex problems have no other minima.
+fn settling<'a>(session: &Session<'_>, answers: &'a [Answer], ray: Option<&Ray>) -> Option<(f64, &'a [f64])> {
     if session.task.class.is_global() || ray.is_some_and(|ray| ray.fall == Fall::Endless) {
         return None;
     }
     let runs_off = |answer: &&Answer| answer.certificate.as_ref().is_some_and(|own| ray.is_some() || !own.runaway.is_empty());
     let feasible = answers.iter().filter(|answer| answer.feasible).filter(runs_off);
-    feasible.filter_map(|answer| answer.objective).reduce(f64::min)
+    let places = feasible.filter_map(|answer| Some((answer.objective?, answer.solution.x.as_slice())));
+    places.min_by(|a, b| a.0.total_cmp(&b.0))
 }

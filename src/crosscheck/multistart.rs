@@ -27,9 +27,9 @@ pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize]
     (0..count).into_par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// A certified answer not above `value`, beyond what counts as agreement, from the origin or one of a few seeded starts, where one is found soon: what runs off from one start may
-/// be attained from another.
-pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
+/// A certified answer not above `value`, beyond what counts as agreement, from the origin, from dips beside the start that leads to `far`, or
+/// from one of a few seeded starts, where one is found soon: what runs off from one start may be attained from another.
+pub(super) fn attained(ledger: &Ledger<'_, '_>, (value, far): (f64, &[f64])) -> Option<Found> {
     let session = ledger.session;
     let is_attained = |answer: &Answer| {
         let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
@@ -37,7 +37,8 @@ pub(super) fn attained(ledger: &Ledger<'_, '_>, value: f64) -> Option<Found> {
     };
     let allowed = work::further_run(0.0) / FEW as f64;
     let meta = session.task.model.meta();
-    let starts = std::iter::once(seeds::origin(meta)).chain((0..FEW).map(|index| Seeds::new(index + 3).point(meta)));
+    let dips = seeds::dips(session.task.model, session.task.start, far);
+    let starts = std::iter::once(seeds::origin(meta)).chain(dips).chain((0..FEW).map(|index| Seeds::new(index + 3).point(meta)));
     let from = |start| from_start(session, ledger.solvers, &ledger.order(), start, allowed);
     starts.into_iter().find_map(|start| from(start).filter(|found| is_attained(&found.answer)))
 }

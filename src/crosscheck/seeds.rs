@@ -1,7 +1,8 @@
 //! Repeatable random numbers and starting points.
 
 use crate::math::split_mix::SplitMix;
-use crate::model::{Meta, domain};
+use crate::model::{Meta, Model, domain};
+use crate::recession::size;
 
 /// A seeded stream of numbers and points.
 pub(super) struct Seeds(SplitMix);
@@ -45,9 +46,56 @@ pub(super) fn origin(meta: &Meta) -> Vec<f64> {
     x
 }
 
+/// Places per doubling of the distance behind a start, and doublings, in units of the start's own size.
+const PLACES: i32 = 24;
+const DOUBLINGS: std::ops::Range<i32> = -12..10;
+
+/// The first dips on the line from a start to where runs lead from it, behind the start and before it: what slopes away from a start on one
+/// side may rise to a hill on the other, with a valley beyond it.
+pub(super) fn dips(model: &dyn Model, start: &[f64], far: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    [-1.0, 1.0].into_iter().filter_map(|way| dip(model, start, far, way))
+}
+
+fn dip(model: &dyn Model, start: &[f64], far: &[f64], way: f64) -> Option<Vec<f64>> {
+    let place = |step: i32| {
+        let distance = (f64::from(step) / f64::from(PLACES)).exp2();
+        let one = |(start, far): (&f64, &f64)| {
+            if far == start { *start } else { start + way * (far - start).signum() * distance * size(*start) }
+        };
+        let mut x: Vec<f64> = start.iter().zip(far).map(one).collect();
+        model.meta().clamp(&mut x);
+        let height = model.objective(&x).unwrap_or(f64::INFINITY);
+        (x, height)
+    };
+    let mut places = (DOUBLINGS.start * PLACES..DOUBLINGS.end * PLACES).map(place);
+    let (mut before, mut here) = (places.next()?, places.next()?);
+    for next in places {
+        if here.1 < before.1 && here.1 < next.1 {
+            return Some(here.0);
+        }
+        (before, here) = (here, next);
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
+    use num_dual::DualNum;
+
     use super::*;
+    use crate::model::sample::Sample;
+
+    #[test]
+    fn the_dip_behind_a_hill_is_found_wherever_the_origin_is() {
+        for origin in [0.0, 4.0, -300.0] {
+            let hill = Sample::new(&[origin + 3.0], move |x| {
+                let square = (x[0] - origin).powi(2);
+                square / (square + 1.0).powi(2)
+            });
+            let dip = dips(&hill, &[origin + 3.0], &[1e9]).next().unwrap();
+            assert!((dip[0] - origin).abs() < 1.0, "{dip:?} beside {origin}");
+        }
+    }
 
     #[test]
     fn points_stay_in_the_box_and_repeat() {

@@ -87,7 +87,7 @@ impl<'a> Lexer<'a> {
             self.name();
         } else if rest.starts_with(['"', '\'']) {
             self.quoted();
-        } else if let Some((sign, instead)) = FOREIGN.iter().find(|(sign, _)| rest.starts_with(sign) && !rest.starts_with("!=")) {
+        } else if let Some((sign, instead)) = foreign(rest) {
             self.foreign(sign, instead);
         } else if let Some(symbol) = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol)) {
             self.push(Word::Symbol(symbol), symbol.len());
@@ -190,6 +190,17 @@ impl<'a> Lexer<'a> {
         let span = self.take(length);
         self.mistakes.push(SyntaxError::new(span, message).help("names are made of A-Z, a-z, 0-9 and _"));
     }
+}
+
+/// The foreign sign a text begins with. Most signs of a large file stand for themselves, as their first byte and the one after tell.
+fn foreign(text: &str) -> Option<&'static (&'static str, &'static str)> {
+    let bytes = text.as_bytes();
+    let may_be = match bytes.first()? {
+        byte @ (b'*' | b'&' | b'|') => bytes.get(1) == Some(byte),
+        b'!' => bytes.get(1) != Some(&b'='),
+        byte => !byte.is_ascii() || matches!(byte, b'{' | b'}' | b';'),
+    };
+    if may_be { FOREIGN.iter().find(|(sign, _)| text.starts_with(sign)) } else { None }
 }
 
 /// The remedy for a foreign sign; what follows a colon is a reason.

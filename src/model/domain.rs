@@ -11,6 +11,8 @@ const TRIES: usize = 96;
 const WORK: usize = 20_000_000;
 /// Points tried anywhere between the bounds, where none of these has values.
 const SCANNED: usize = 4_000;
+/// Decades from the start towards 0.
+const DECADES: i32 = 9;
 /// Halvings of the way back towards the start.
 const HALVINGS: usize = 8;
 
@@ -36,8 +38,21 @@ pub fn valid_near(model: &dyn Model, start: &[f64]) -> Result<Vec<f64>, Evaluati
             return Ok(nearer(model, start, x));
         }
     }
+    // Where units are small a start may be far outside: then 0, or the bounds nearest to it, tells where the domain may be.
+    let nearer_zero =
+        (1..=DECADES).map(|decade| towards_zero(model, start, 10f64.powi(-decade))).chain([towards_zero(model, start, 0.0)]);
+    if let Some(x) = nearer_zero.into_iter().find(|x| values(model, x).is_ok()) {
+        return Ok(nearer(model, start, x));
+    }
     let scanned = (0..SCANNED.min(WORK / (start.len() + 1))).map(|k| scattered(model, start, k, &mut random));
     scanned.into_iter().find(|x| values(model, x).is_ok()).map(|x| nearer(model, start, x)).ok_or(first)
+}
+
+/// The start times a factor, inside the bounds.
+fn towards_zero(model: &dyn Model, start: &[f64], factor: f64) -> Vec<f64> {
+    let mut x: Vec<f64> = start.iter().map(|start| start * factor).collect();
+    model.meta().clamp(&mut x);
+    x
 }
 
 /// A point anywhere between the bounds; where they are open, up to a hundred sizes away. Every other one differs from the start in
@@ -158,6 +173,13 @@ mod tests {
         let x = valid_near(&model, &[-1.0, 3.0]).unwrap();
         assert!(x[0] > x[1] + 2.0 && x.iter().all(|x| x.abs() <= 10.0), "{x:?}");
         assert_eq!(valid_near(&model, &[5.0, 1.0]).unwrap(), [5.0, 1.0]);
+    }
+
+    #[test]
+    fn a_start_far_outside_a_domain_about_zero_is_moved_inside() {
+        let sphere = Sample::new(&[-400.0, 0.1], |x| -(-(x[0] * 1e3).powi(2) - (x[1] * 1e6).powi(2) + 4.0).sqrt());
+        let x = valid_near(&sphere, &[-400.0, 0.1]).unwrap();
+        assert!((x[0] * 1e3).hypot(x[1] * 1e6) < 2.0, "{x:?}");
     }
 
     #[test]

@@ -126,16 +126,18 @@ impl<'a> Valley<'a> {
             let Some((settled, height)) = self.place(lead, origin + lead.step * f64::from(doubling).exp2(), &floor) else {
                 if doubling >= enough { break } else { return None }
             };
-            let (is_feasible, settled, height) = self.on_rows(lead, settled, height);
+            let drop = base.value - last.value;
+            let level = |height: Height| last.noise.max(noise).max(height.noise) + noise.max(height.noise) + ROUNDINGS * drop;
+            let rises = |height: Height| height.value > last.value + level(height);
+            let (is_feasible, settled, height) = self.on_rows(lead, settled, height, &rises);
             // What is left of a fall of fifteen digits is rounding of the steps that lead there. Last digits may show none by chance
             // (√(x² + 1) − x is 0 or one last digit of x): farther out there is no less than has been seen.
-            noise = noise.max(height.noise);
-            let level = last.noise.max(noise) + noise + ROUNDINGS * (base.value - last.value);
-            if !is_feasible || height.value > last.value + level {
+            if !is_feasible || rises(height) {
                 // So far from the start that what rounding makes of a value is more than all it has fallen by, a place tells nothing.
-                let is_lost = height.noise > base.value - last.value && doubling >= enough;
+                let is_lost = height.noise > drop && doubling >= enough;
                 if is_lost { break } else { return None }
             }
+            noise = noise.max(height.noise);
             if height.value < last.value {
                 last = height;
             }
@@ -196,15 +198,17 @@ impl<'a> Valley<'a> {
         Some((floor, height))
     }
 
-    /// Whether a place meets the limits, if need be led back to the rows once more.
-    fn on_rows(&self, lead: &Lead, place: Floor, height: Height) -> (bool, Floor, Height) {
-        if (self.site.is_feasible)(&place.x) {
+    /// Whether a place meets the limits; one that does not, or that is high because what the tolerance leaves of a row is paid for, is led
+    /// back to the rows once more.
+    fn on_rows(&self, lead: &Lead, place: Floor, height: Height, rises: &dyn Fn(Height) -> bool) -> (bool, Floor, Height) {
+        let is_feasible = (self.site.is_feasible)(&place.x);
+        if is_feasible && !rises(height) {
             return (true, place, height);
         }
         let back = back_to_rows(&self.site, lead.pivot, place.clone()).filter(|back| (self.site.is_feasible)(&back.x));
         match back.and_then(|back| self.height(&back).map(|height| (back, height))) {
-            Some((back, height)) => (true, back, height),
-            None => (false, place, height),
+            Some((back, lower)) if !is_feasible || lower.value < height.value => (true, back, lower),
+            _ => (is_feasible, place, height),
         }
     }
 

@@ -48,6 +48,9 @@ impl Dimension {
 
     /// That of a product; `None` where exponents do not fit.
     pub fn times(self, other: Dimension) -> Option<Dimension> {
+        if other.is_none() {
+            return Some(self);
+        }
         let mut powers = self.0;
         for (power, other) in powers.iter_mut().zip(other.0) {
             *power = power.checked_add(&other)?;
@@ -57,6 +60,9 @@ impl Dimension {
 
     /// That of a power; `None` where exponents do not fit.
     pub fn power(self, exponent: Ratio) -> Option<Dimension> {
+        if self.is_none() {
+            return Some(self);
+        }
         let mut powers = self.0;
         for power in &mut powers {
             *power = power.checked_mul(&exponent)?;

@@ -5,6 +5,9 @@ use std::fmt::Write;
 
 use toml::Value;
 
+/// Beyond this, times 10^±6 and a formula's own numbers, an overflow is near.
+const LAST_NUMBERS: f64 = 1e290;
+
 /// Keys and values of one table, in the file's order.
 pub type Entries = Vec<(String, Value)>;
 
@@ -33,11 +36,16 @@ impl Variable {
         }
     }
 
-    /// How large element `i` is: its start, else its nearest bound, else 1.
-    pub fn size(&self, i: usize) -> f64 {
+    /// What element `i` is called.
+    pub fn element(&self, i: usize) -> String {
+        if self.is_array { format!("{}[{}]", self.name, i + 1) } else { self.name.clone() }
+    }
+
+    /// How large element `i` is: its start, else its nearest bound, where they tell.
+    pub fn size(&self, i: usize) -> Option<f64> {
         let start = self.start.as_ref().map_or(0.0, |start| start[i]);
         let sizes = [start, self.lower[i], self.upper[i]];
-        sizes.into_iter().map(f64::abs).find(|&size| size > 0.0 && size.is_finite()).unwrap_or(1.0)
+        sizes.into_iter().map(f64::abs).find(|&size| size > 0.0 && size.is_finite())
     }
 }
 
@@ -78,6 +86,12 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// The file's unit in those of the draft.
+    pub fn unit(&self) -> f64 {
+        let factor = |step: &Step| if let Step::Affine(factor, _) = step { factor.abs() } else { 1.0 };
+        self.steps.iter().map(factor).product::<f64>().recip()
+    }
+
     /// How far the draft's zero lies from the file's, in the file's unit.
     pub fn offset(&self) -> f64 {
         let is_affine = self.steps.iter().all(|step| *step != Step::Reciprocal);
@@ -110,6 +124,12 @@ impl Draft {
     pub fn is_algebraic(&self) -> bool {
         let known = ["title", "units", "solver"];
         self.sections.is_empty() && self.rest.iter().all(|(key, _)| known.contains(&key.as_str()))
+    }
+
+    /// Whether bounds are so far out that in other units there are no numbers for what lies there.
+    pub fn goes_to_the_end_of_numbers(&self) -> bool {
+        let bounds = self.variables.iter().flat_map(|variable| variable.lower.iter().chain(&variable.upper));
+        bounds.map(|bound| bound.abs()).any(|bound| bound.is_finite() && bound > LAST_NUMBERS)
     }
 
     /// A name like the wish that stands nowhere yet.

@@ -121,6 +121,9 @@ fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
         return None;
     }
     let best = truth.minima.iter().copied().fold(f64::INFINITY, f64::min);
+    if run.in_file.as_ref().is_some_and(|in_file| is_left_by_the_slope(value - best, in_file)) {
+        return lost_class_or_scope(truth, done, run);
+    }
     let off = (value - best) / best.abs().max(1.0);
     if off < 0.0 {
         return wrong(format!("below the optimum {best:?} by {:.1e}", -off));
@@ -129,6 +132,13 @@ fn minimum(truth: &Truth, done: &Done, run: &Run) -> Option<Fault> {
         return wrong(format!("above the optimum {best:?} of a {} problem by {off:.1e}", truth.class));
     }
     another_minimum(run.in_file.as_ref(), done, &format!("above {best:?} by {off:.1e}"))
+}
+
+/// Whether this much above the minimum is what the accepted slope leaves: ACCURACY·σ beside a curvature of σ leaves ½·ACCURACY²·σ. (x − 5e9)² from
+/// x = 0 has σ = 5e19.
+fn is_left_by_the_slope(gap: f64, in_file: &InFile) -> bool {
+    let own = &in_file.certificate;
+    own.certified && gap >= 0.0 && gap <= 0.5 * ACCURACY * ACCURACY * own.sigma
 }
 
 /// What the file itself has against a certified point.

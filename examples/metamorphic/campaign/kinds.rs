@@ -85,7 +85,11 @@ pub fn transform(draft: &mut Draft, class: Class, only: Option<&str>, random: &m
         (kinds, left) = (KINDS.to_vec(), 2 + random.below(3));
     }
     random.shuffle(&mut kinds);
+    let scales = |kind: &Kind| kind.name.starts_with("scale-");
     for kind in kinds {
+        if scales(&kind) && draft.goes_to_the_end_of_numbers() {
+            continue;
+        }
         if done.names.iter().any(|name| scale_the_same(name, kind.name)) {
             continue;
         }

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::draft::{Draft, Step, Variable};
+use super::draft::{Draft, Origin, Step, Variable};
 use super::random::Random;
 use super::reading::resolved_start;
 use super::words::{Requirement, number, replace_names};
@@ -46,7 +46,7 @@ fn substitute(draft: &mut Draft, random: &mut Random, at: usize, steps: &[Step])
     }
     for (i, &step) in steps.iter().enumerate() {
         let element = |name: &str| if old.is_array { format!("{name}[{}]", i + 1) } else { name.to_string() };
-        draft.track(&element(&old.name), &element(&name), step);
+        draft.track(&old.element(i), &element(&name), step);
     }
 }
 
@@ -124,7 +124,10 @@ pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
     for at in (0..draft.variables.len()).filter(|&at| !draft.variables[at].is_slack).collect::<Vec<usize>>() {
         let variable = &draft.variables[at];
         let shift = |i: usize| {
-            let size = Some(variable.size(i)).filter(|&size| size < NO_SIZE).unwrap_or(1.0);
+            // What nothing tells is 1 in the file, not where the file has been scaled.
+            let origin = draft.origins.iter().find(|origin| origin.now == variable.element(i));
+            let unit = || origin.map_or(1.0, Origin::unit);
+            let size = variable.size(i).filter(|&size| size < NO_SIZE).unwrap_or_else(unit);
             let by = random.of_magnitude(-1.0, 1.0) * size;
             Step::Affine(1.0, by.signum() * by.abs().log2().round().exp2())
         };

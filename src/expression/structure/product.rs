@@ -217,6 +217,7 @@ fn of_ratios(graph: &Graph, w: NodeId, g: NodeId, known: &[Structure]) -> Curvat
         return Unknown;
     }
     let mut ratios = known.to_vec();
+    let is_multiple = |id: NodeId| is_multiple(graph, id, w, known);
     for id in below {
         let own = known[id as usize];
         if own.curvature == Constant {
@@ -225,12 +226,12 @@ fn of_ratios(graph: &Graph, w: NodeId, g: NodeId, known: &[Structure]) -> Curvat
         ratios[id as usize] = match graph.node(id) {
             // w = 1/(1/w)
             _ if id == w => Structure { curvature: Convex, logarithm: Convex, line: Line::Many, ..own },
-            Node::Binary(Binary::Divide, u, v) if v == w && known[u as usize].curvature.is_affine() => {
+            Node::Binary(Binary::Divide, u, v) if is_multiple(v) && known[u as usize].curvature.is_affine() => {
                 let logarithm = if own.interval.is_non_negative() { Concave } else { Unknown };
                 Structure { curvature: Affine, logarithm, line: Line::Many, ..own }
             }
             Node::Binary(Binary::Divide, u, v)
-                if u == w && known[v as usize].curvature.is_affine() && known[v as usize].interval.is_non_negative() =>
+                if is_multiple(u) && known[v as usize].curvature.is_affine() && known[v as usize].interval.is_non_negative() =>
             {
                 Structure { curvature: Convex, logarithm: Convex, line: Line::Many, ..own }
             }
@@ -244,4 +245,15 @@ fn of_ratios(graph: &Graph, w: NodeId, g: NodeId, known: &[Structure]) -> Curvat
         };
     }
     ratios[g as usize].curvature
+}
+
+/// Whether a node is w times a positive constant.
+fn is_multiple(graph: &Graph, id: NodeId, w: NodeId, known: &[Structure]) -> bool {
+    let is_positive = |id: NodeId| known[id as usize].curvature == Constant && known[id as usize].interval.lower > 0.0;
+    id == w
+        || match graph.node(id) {
+            Node::Binary(Binary::Multiply, a, b) => (b == w && is_positive(a)) || (a == w && is_positive(b)),
+            Node::Binary(Binary::Divide, a, b) => a == w && is_positive(b),
+            _ => false,
+        }
 }

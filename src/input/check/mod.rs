@@ -23,7 +23,7 @@ mod tables;
 mod unused;
 mod variables;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ use super::declaration::{Declaration, Name};
 use super::findings::Findings;
 use super::source::{Place, Source, Written};
 use super::table::Tables;
-use crate::expression::ast::Collection;
+use crate::expression::ast::{Collection, Requirement};
 use crate::geometry::polygon::Ring;
 use crate::problem::Problem;
 use crate::problem::mistake_code::MistakeCode;
@@ -65,6 +65,8 @@ pub(super) struct Assembly<'a> {
     links: Vec<Link>,
     /// The texts of those expressions, each once.
     texts: Vec<Written>,
+    /// What the user's requirements were read as, by their places.
+    requirements: BTreeMap<Place, Requirement>,
     text_numbers: HashMap<String, u32>,
     /// Points of tables' cells by their text, each kept once.
     points: HashMap<String, Option<Arc<Vec<Ring>>>>,
@@ -187,6 +189,7 @@ impl<'a> Assembly<'a> {
             rib_data: DataColumns::default(),
             links: Vec::new(),
             texts: Vec::new(),
+            requirements: BTreeMap::new(),
             text_numbers: HashMap::new(),
             points: HashMap::new(),
             used: Vec::new(),

@@ -22,14 +22,18 @@ impl Assembly<'_> {
         scope: &Scope,
         name: &str,
     ) -> Vec<(String, Formula, Limit)> {
-        self.sides(written, items, scope, name).map_or_else(Vec::new, |(requirement, sides)| {
-            let single = sides.len() == 1;
-            let rows = sides.into_iter().enumerate().map(|(at, formulas)| {
-                let name = if single { name.to_owned() } else { format!("{name}[{}]", at + 1) };
-                self.row(written, &requirement, formulas, scope, &name).map(|(left, limit)| (name, left, limit))
-            });
-            rows.collect::<Vec<_>>().into_iter().flatten().collect()
-        })
+        let Some((requirement, sides)) = self.sides(written, items, scope, name) else { return Vec::new() };
+        let single = sides.len() == 1;
+        let mut rows = Vec::with_capacity(sides.len());
+        for (at, formulas) in sides.into_iter().enumerate() {
+            let name = if single { name.to_owned() } else { format!("{name}[{}]", at + 1) };
+            rows.extend(self.row(written, &requirement, formulas, scope, &name).map(|(left, limit)| (name, left, limit)));
+        }
+        // Texts that checks write share a place, and are nobody's.
+        if !self.quiet {
+            self.requirements.insert(written.place, requirement);
+        }
+        rows
     }
 
     /// The formulas on the sides of each row.

@@ -251,6 +251,7 @@ fn connect(
         typical: padded(&problem.variables.typical, n),
         row_lower: rows.lower,
         row_upper: rows.upper,
+        row_constants: rows.affine.iter().map(|affine| affine.constant).collect(),
         row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),
         objective_is_linear: objective_groups.is_empty(),
         states: None,
@@ -259,14 +260,6 @@ fn connect(
         names: NameTable::new(ProblemNames { problem: Arc::clone(problem), row_origin: Arc::clone(&row_origin) }),
         ..Meta::default()
     };
-    let inner = ElementModel {
-        meta,
-        objective,
-        row_constants: rows.affine.iter().map(|affine| affine.constant).collect(),
-        linear_jacobian,
-        objective_groups,
-        row_groups,
-        ..ElementModel::default()
-    };
+    let inner = ElementModel { meta, objective, linear_jacobian, objective_groups, row_groups, ..ElementModel::default() };
     RibModel { problem: Arc::clone(problem), inner, row_origin, members: OnceLock::new() }
 }

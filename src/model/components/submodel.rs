@@ -21,7 +21,6 @@ pub(super) fn submodel(view: ComponentView<'_>, k: usize) -> ElementModel {
     let own = |j: &u32| coefficients.binary_search_by_key(j, |entry| entry.0).ok().map(|at| (place(*j), coefficients[at].1));
     ElementModel {
         objective: Affine { constant: 0.0, coefficients: variables.iter().filter_map(own).collect() },
-        row_constants: row(&parent.row_constants),
         linear_jacobian,
         meta: Meta {
             lower: variable(&meta.lower),
@@ -30,6 +29,7 @@ pub(super) fn submodel(view: ComponentView<'_>, k: usize) -> ElementModel {
             typical: variable(&meta.typical),
             row_lower: row(&meta.row_lower),
             row_upper: row(&meta.row_upper),
+            row_constants: row(&meta.row_constants),
             row_is_linear: rows.iter().map(|&i| meta.row_is_linear[i as usize]).collect(),
             objective_is_linear: objective_groups.is_empty(),
             jacobian,

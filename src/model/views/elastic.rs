@@ -147,6 +147,7 @@ fn elastic_meta(base: &Meta, rows: &[usize], slacks: &[(usize, f64)], start: Vec
             .collect(),
         row_lower: chosen(&base.row_lower),
         row_upper: chosen(&base.row_upper),
+        row_constants: if base.row_constants.is_empty() { Vec::new() } else { chosen(&base.row_constants) },
         row_is_linear: rows.iter().map(|&i| base.is_row_linear(i)).collect(),
         objective_is_linear: true,
         states: None,

@@ -70,6 +70,7 @@ impl FlangeSubstitution {
             states: None,
             row_lower: user.row_lower.clone(),
             row_upper: user.row_upper.clone(),
+            row_constants: user.row_constants.clone(),
             row_is_linear: user.row_is_linear.clone(),
             lower: user.lower.clone(),
             upper: user.upper.clone(),

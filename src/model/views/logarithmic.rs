@@ -46,6 +46,7 @@ impl Logarithmic {
             typical: Vec::new(),
             row_lower: limit(&user.row_lower),
             row_upper: limit(&user.row_upper),
+            row_constants: Vec::new(),
             row_is_linear: monomial.clone(),
             objective_is_linear: false,
             states: None,

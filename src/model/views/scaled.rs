@@ -91,7 +91,7 @@ impl<'a> Scaled<'a> {
         for values in [&mut meta.lower, &mut meta.upper, &mut meta.start, &mut meta.typical] {
             divide(values, &scales.variables);
         }
-        for limits in [&mut meta.row_lower, &mut meta.row_upper] {
+        for limits in [&mut meta.row_lower, &mut meta.row_upper, &mut meta.row_constants] {
             divide(limits, &scales.rows);
         }
         Scaled { model, scales, meta }

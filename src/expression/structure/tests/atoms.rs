@@ -7,13 +7,14 @@ use Curvature::{Concave, Convex, Unknown};
 
 #[test]
 fn atoms_are_known() {
-    let convex: [fn(&mut Case) -> NodeId; 16] = [
+    let convex: [fn(&mut Case) -> NodeId; 17] = [
         |case| case.over(3.0),
         |case| case.norm(0.0),
         |case| case.norm(1.0),
         |case| case.log_sum_exp(),
         |case| case.entropy(),
         |case| case.relative_entropy(),
+        |case| case.entropy_in_other_units(),
         |case| case.square_over(2.0, -1.0),
         |case| case.square_over(4.0, -3.0),
         |case| case.square_over(-0.5, -0.7),
@@ -78,6 +79,15 @@ impl Case {
         let ratio = self.graph.divide(self.a, self.b);
         let log = self.graph.unary(Unary::Log, ratio);
         self.graph.multiply(self.a, log)
+    }
+
+    /// 2a·ln(2a/(2a + b))
+    fn entropy_in_other_units(&mut self) -> NodeId {
+        let scaled = self.graph.scale(2.0, self.a);
+        let sum = self.graph.add(scaled, self.b);
+        let ratio = self.graph.divide(scaled, sum);
+        let log = self.graph.unary(Unary::Log, ratio);
+        self.graph.multiply(scaled, log)
     }
 
     fn square_over(&mut self, p: f64, q: f64) -> NodeId {

@@ -3,7 +3,7 @@
 use super::walk::{Scope, Walk};
 use crate::expression::Span;
 use crate::expression::ast::Collection;
-use crate::expression::parse::{parse, parse_condition, parse_range, parse_requirement};
+use crate::expression::parse::{parse, parse_condition, parse_range};
 use crate::input::declaration::structure::{LoadEntry, StructureEntries, Vector};
 use crate::input::declaration::{
     ConstraintEntry, Declaration, DefinitionEntry, DimensionEntry, ListEntry, Listing, Name, Numbers, Range, SectionEntry,
@@ -234,9 +234,9 @@ impl Walk<'_, '_> {
         let index = entry.index.as_ref().and_then(|written| parse_range(&written.text).ok());
         self.indices.extend(index.map(|(name, _)| name));
         if let Some(written) = &entry.require
-            && let Ok(requirement) = parse_requirement(&written.text)
+            && let Some(requirement) = self.assembly.requirements.get(&written.place)
         {
-            let form = self.requirement(&requirement, written, scope);
+            let form = self.requirement(requirement, written, scope);
             let name = entry.name.as_ref().map_or_else(|| format!("c{}", at + 1), |name| name.text.clone());
             self.rows.push((name, form));
         }

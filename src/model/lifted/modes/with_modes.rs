@@ -46,6 +46,7 @@ impl<F: Model> WithModes<F> {
         let meta = Meta {
             row_lower: spread(&own.row_lower, f64::NEG_INFINITY),
             row_upper: spread(&own.row_upper, f64::INFINITY),
+            row_constants: spread(&own.row_constants, 0.0),
             row_is_linear: Vec::new(),
             jacobian,
             hessian,

@@ -66,7 +66,7 @@ impl<'a> Resolver<'a, '_> {
         let Some((last, item)) = parts.split_last() else { return false };
         let first = format!("{last}[1]");
         let own = || self.scope.is_some_and(|scope| scope.offers(&first));
-        sections::is_dimension(&first) && (!item.is_empty() || own())
+        (!item.is_empty() || own()) && sections::is_dimension(&first)
     }
 
     /// `wall.thickness[2]`

@@ -1,0 +1,64 @@
+//! Asymptotes that no way outwards has to show: a value that rounding has made level, a bound at which a term has no value.
+
+use super::higher_order::Trial;
+use super::point::Point;
+use super::scales;
+use super::second_order::Active;
+use crate::certificate::Side;
+use crate::certificate::parameters::runaway::BESIDE;
+use crate::model::{EvaluationError, Model};
+use crate::recession;
+
+/// Whether the objective is level to the last digit all about the point, though not where the variables come from. One that is analytic is then
+/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it.
+pub(super) fn is_level_about(point: &Point<'_>) -> bool {
+    let (meta, model) = (point.meta(), &point.origin.model);
+    let is_level = |way: f64| {
+        let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, way * BESIDE), vec![0.0; point.x.len()]);
+        let value = model.gradient(&x, &mut gradient);
+        value.is_ok_and(|value| value == point.objective) && gradient.iter().all(|slope| *slope == 0.0)
+    };
+    let is_other = || model.objective(&meta.start).is_ok_and(|value| value != point.objective);
+    point.sigma == 0.0 && !meta.objective_is_linear && is_level(1.0) && is_level(-1.0) && is_other()
+}
+
+/// The variables that have moved most from where they come from.
+pub(super) fn moved_most(point: &Point<'_>) -> Vec<usize> {
+    let start = &point.meta().start;
+    let share = |j: usize| ((point.x[j] - start[j]) / recession::size(start[j])).abs();
+    let most = (0..point.x.len()).map(share).fold(0.0, f64::max);
+    (0..point.x.len()).filter(|&j| share(j) > 1e-3 * most).collect()
+}
+
+/// The variables on their way to bounds where a term has no value: nothing rises as they come nearer, and the bound itself is out
+/// of reach.
+pub(super) fn towards_bounds(point: &Point<'_>, active: &Active<'_>, tolerance: f64) -> Vec<usize> {
+    let meta = point.meta();
+    let near = |j: usize| {
+        let x = point.x[j];
+        let bound = if x - meta.lower[j] <= meta.upper[j] - x { meta.lower[j] } else { meta.upper[j] };
+        let size = bound.abs().max(point.sizes[j]);
+        let rests = active.bounds[j] != Side::None && active.bounds[j] != Side::Equal;
+        (x != bound && (rests || (x - bound).abs() <= 1e-8 * size)).then_some((j, bound))
+    };
+    let near: Vec<(usize, f64)> = (0..point.x.len()).filter_map(near).collect();
+    let value = |share: f64| {
+        let mut x = point.x.to_vec();
+        near.iter().for_each(|&(j, bound)| x[j] = bound + share * (x[j] - bound));
+        Trial::at(point, &x).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective)
+    };
+    let on_bounds = || {
+        let mut x = point.x.to_vec();
+        near.iter().for_each(|&(j, bound)| x[j] = bound);
+        point.origin.model.objective(&x).and_then(|_| point.origin.model.constraints(&x, &mut vec![0.0; meta.rows()]))
+    };
+    if near.is_empty() || !matches!(on_bounds(), Err(EvaluationError::Invalid { .. })) {
+        return Vec::new();
+    }
+    let level = 64.0 * f64::EPSILON * point.objective.abs();
+    // So near that no number lies between: as near as the bound itself.
+    let has_arrived = |share: f64| near.iter().all(|&(j, bound)| bound + share * (point.x[j] - bound) == bound);
+    let stays = |share: f64| has_arrived(share) || value(share).is_some_and(|f| f <= point.objective + level);
+    let never_rises = [0.1, 0.01, 1e-3].into_iter().all(stays);
+    if never_rises { near.into_iter().map(|(j, _)| j).collect() } else { Vec::new() }
+}
