@@ -144,12 +144,22 @@ impl<'w, 'p> Walk<'w, 'p> {
         within_time.find_map(|direction| match self.along(direction, 1.0) {
             Way::Lower(way) => Some(way),
             // Rows bend by vᵀCv whichever way v is followed.
-            Way::Barred => None,
-            Way::Ends => match self.along(direction, -1.0) {
+            Way::Barred if self.is_two_sided(direction) => None,
+            Way::Barred | Way::Ends => match self.along(direction, -1.0) {
                 Way::Lower(way) => Some(way),
                 Way::Barred | Way::Ends => None,
             },
         })
+    }
+
+    /// Whether a direction leads along all limits that a step may leave, so that the shortest step is within tolerance of each both ways.
+    fn is_two_sided(&self, direction: &[f64]) -> bool {
+        let (point, most) = (self.point, self.tolerances.constraint / STEPS[0]);
+        let relative = |j: usize| direction[j] / point.sizes[j];
+        let is_along = |row: usize| point.row_in_sizes(row).map(|(j, slope)| slope * relative(j)).sum::<f64>().abs() <= most;
+        let beside = self.loose.iter().filter(|j| self.free.binary_search(j).is_err());
+        let left = self.held.iter().zip(&self.may_be_left).filter(|(_, may_be_left)| **may_be_left);
+        beside.copied().all(|j| relative(j).abs() <= most) && left.into_iter().all(|(&row, _)| is_along(row))
     }
 
     /// Growing steps until the objective changes.
