@@ -6,6 +6,11 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
+/// What a file is to hold.
+pub type Content<'c> = Box<dyn FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'c>;
+
 /// Writes a file beside its place, then renames it into place. Its folder is made where there is none.
 ///
 /// # Errors
@@ -28,12 +33,37 @@ impl Set {
     /// # Errors
     /// Whatever the writer or the file system says.
     pub fn write(&mut self, path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+        let unfinished = self.begin(path)?;
+        fill(&unfinished, content)
+    }
+
+    /// Writes files beside their places, side by side.
+    ///
+    /// # Errors
+    /// The first file whose writer, or the file system for it, says so, and what.
+    pub fn write_all(&mut self, files: Vec<(PathBuf, Content<'_>)>) -> Result<(), (PathBuf, io::Error)> {
+        let mut begun = Vec::with_capacity(files.len());
+        for (path, content) in files {
+            match self.begin(&path) {
+                Ok(unfinished) => begun.push((path, unfinished, content)),
+                Err(cause) => return Err((path, cause)),
+            }
+        }
+        let filled = begun
+            .into_par_iter()
+            .map(|(path, unfinished, content)| fill(&unfinished, content).map_err(|cause| (path, cause)))
+            .collect::<Vec<_>>();
+        filled.into_iter().collect()
+    }
+
+    /// The place beside a file's own, in a folder that is there.
+    fn begin(&mut self, path: &Path) -> io::Result<PathBuf> {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder)?;
         }
         let unfinished = beside(path);
         self.written.push((unfinished.clone(), path.into()));
-        fill(&unfinished, content)
+        Ok(unfinished)
     }
 
     /// The places of what was written.
@@ -91,6 +121,23 @@ mod tests {
         assert_eq!(failed.unwrap_err().to_string(), "the disk is full");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn of_files_side_by_side_the_one_that_fails_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        let text = |text: &'static str| -> Content<'static> { Box::new(move |out| out.write_all(text.as_bytes())) };
+        let mut set = Set::default();
+        set.write_all(vec![(place("one"), text("1")), (place("two"), text("2"))]).unwrap();
+        set.swap().unwrap();
+        assert_eq!((fs::read(place("one")).unwrap(), fs::read(place("two")).unwrap()), (b"1".to_vec(), b"2".to_vec()));
+        let mut set = Set::default();
+        let full: Content<'_> = Box::new(|_| Err(io::Error::other("the disk is full")));
+        let (path, cause) = set.write_all(vec![(place("one"), text("new")), (place("two"), full)]).unwrap_err();
+        drop(set);
+        assert_eq!((path, cause.to_string()), (place("two"), "the disk is full".to_owned()));
+        assert_eq!((fs::read(place("one")).unwrap(), fs::read_dir(folder.path()).unwrap().count()), (b"1".to_vec(), 2));
     }
 
     #[test]

@@ -1,12 +1,11 @@
 //! Sizes of all sections and volumes of all ribs at a point, as tables.
 
-use std::io;
 use std::sync::Arc;
 
 use super::MOST_LISTED;
 use super::Subject;
-use super::results::Writer;
 use crate::expression::ast::Collection;
+use crate::files::whole::Content;
 use crate::model::{EvaluationError, assemble_any};
 use crate::problem::evaluate::{Evaluation, Item};
 use crate::problem::{Constraint, Dimension, Formula, Problem, Scope};
@@ -21,20 +20,17 @@ pub const DENSITY: &str = "density";
 const MOST_PROPERTIES: usize = 5_000;
 
 /// `sizes.csv` where there are sections, `volumes.csv` where there are ribs.
-///
-/// # Errors
-/// Whatever the file system says.
-pub(super) fn leave(subject: &Subject, x: &[f64], files: &mut Writer) -> io::Result<()> {
-    let problem = subject.problem();
+pub(super) fn tables<'a>(subject: &'a Subject, x: &'a [f64]) -> Vec<(&'static str, Content<'a>)> {
+    let (problem, mut files) = (subject.problem(), Vec::<(&'static str, Content<'a>)>::new());
     if (1..=MOST_LISTED).contains(&problem.sections.names.len()) {
-        files.file("sizes.csv", |out| sizes::write(all_sizes(problem, x), out))?;
+        files.push(("sizes.csv", Box::new(move |out| sizes::write(all_sizes(problem, x), out))));
     }
     if (1..=MOST_LISTED).contains(&problem.ribs.names.len())
         && let Ok(volumes) = rib_volumes(problem, x, None)
     {
-        files.file("volumes.csv", |out| sizes::write_volumes(lines(problem, &volumes), out))?;
+        files.push(("volumes.csv", Box::new(move |out| sizes::write_volumes(lines(problem, &volumes), out))));
     }
-    Ok(())
+    files
 }
 
 /// The mass of all ribs, where each has a density.

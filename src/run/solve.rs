@@ -16,6 +16,7 @@ use super::unobserved::unobserved;
 use super::{MOST_LISTED, RunError, Subject, Watcher, lists, pictures, sizes, stand_in, strongest, structure_files, utilisation};
 use crate::crosscheck::{Outcome, Status, Task};
 use crate::files::Inputs;
+use crate::files::whole::Content;
 use crate::problem::Settings;
 use crate::report::answer::EarlierAnswer;
 use crate::report::{About, Findings, Volumes, result, tables};
@@ -161,19 +162,10 @@ fn leave(subject: &Subject, solved: &mut Solved, results: Results, records: Reco
     let ending =
         Ending { sha256: &about.sha256, cut_short: matches!(outcome.status, Status::Interrupted | Status::LimitReached) };
     let (locked, place, written) = results.leave(ending, |files| {
-        files.file("variables.csv", |out| tables::variables(&findings, out))?;
-        files.file("constraints.csv", |out| tables::constraints(&findings, out))?;
-        if let Some(table) = utilisation {
-            files.file("limits.csv", |out| table.write_limits(out))?;
-            if !table.ribs.is_empty() {
-                files.file("utilisation.csv", |out| table.write_ribs(out))?;
-            }
-        }
-        sizes::leave(subject, &outcome.x, files)?;
+        files.files(numbers(&findings, subject))?;
         if let Some(courses) = &courses {
             structure_files::tables(courses, &mut structure_files::into(files))?;
         }
-        files.file("result.json", |out| result::write(&findings, out))?;
         if plot {
             let start = outcome.moved_start.as_ref().map_or(start, |moved| &moved.x);
             let start = &start[..start.len().min(subject.shown().meta().variables())];
@@ -185,6 +177,23 @@ fn leave(subject: &Subject, solved: &mut Solved, results: Results, records: Reco
         Ok(())
     });
     (solved.unwritten, solved.place, solved._locked) = (written.err(), place, Some(locked));
+}
+
+/// The result and its tables.
+fn numbers<'f>(findings: &'f Findings<'f>, subject: &'f Subject) -> Vec<(&'static str, Content<'f>)> {
+    let mut files: Vec<(&'static str, Content<'f>)> = vec![
+        ("result.json", Box::new(move |out| result::write(findings, out))),
+        ("variables.csv", Box::new(move |out| tables::variables(findings, out))),
+        ("constraints.csv", Box::new(move |out| tables::constraints(findings, out))),
+    ];
+    if let Some(table) = findings.utilisation {
+        files.push(("limits.csv", Box::new(move |out| table.write_limits(out))));
+        if !table.ribs.is_empty() {
+            files.push(("utilisation.csv", Box::new(move |out| table.write_ribs(out))));
+        }
+    }
+    files.extend(sizes::tables(subject, &findings.outcome.x));
+    files
 }
 
 /// What a run without files is given besides the problem.

@@ -44,13 +44,18 @@ impl<'x> Along<'x> {
     }
 
     /// Differences of f, extrapolated. Steps shrink until it has values on both sides; `None` where it never has.
-    pub fn ridders(&self, f: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<Differences> {
+    pub fn ridders(&self, f: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync) -> Option<Differences> {
         let shifted = |by: f64| {
             let mut point = self.x.to_vec();
             self.direction.iter().for_each(|(&j, way)| point[j] += by * way);
             f(&point)
         };
-        let (mut step, mut left, mut right) = first_step(&shifted)?;
+        // On both sides at once.
+        let beside = |step: f64| match rayon::join(|| shifted(-step), || shifted(step)) {
+            (Some(left), Some(right)) => Some((left, right)),
+            _ => None,
+        };
+        let (mut step, mut left, mut right) = first_step(&beside)?;
         let size: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l.abs().max(r.abs())).collect();
         let mut best = vec![f64::NAN; left.len()];
         let mut noise = vec![f64::INFINITY; left.len()];
@@ -75,7 +80,7 @@ impl<'x> Along<'x> {
             }
             previous = row;
             step /= 2.0;
-            (left, right) = (shifted(-step)?, shifted(step)?);
+            (left, right) = beside(step)?;
         }
         // What cancellation in the differences can hide.
         for (noise, size) in noise.iter_mut().zip(&size) {
@@ -86,7 +91,7 @@ impl<'x> Along<'x> {
 }
 
 /// The largest first step or quarter of it that has values on both sides, and these values.
-fn first_step(shifted: &impl Fn(f64) -> Option<Vec<f64>>) -> Option<(f64, Vec<f64>, Vec<f64>)> {
+fn first_step(beside: &impl Fn(f64) -> Option<(Vec<f64>, Vec<f64>)>) -> Option<(f64, Vec<f64>, Vec<f64>)> {
     let steps = std::iter::successors(Some(FIRST), |step| Some(step / 4.0)).take(21);
-    steps.into_iter().find_map(|step| Some((step, shifted(-step)?, shifted(step)?)))
+    steps.into_iter().find_map(|step| beside(step).map(|(left, right)| (step, left, right)))
 }

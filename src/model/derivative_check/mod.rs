@@ -210,7 +210,7 @@ fn lagrangian_gradient(model: &dyn Model, x: &[f64], y: &[f64]) -> Option<Vec<f6
 fn compare(
     along: &Along<'_>,
     (exact, owners): (Vec<f64>, Vec<Option<u32>>),
-    f: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    f: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
     name: impl Fn(usize, Option<u32>) -> String,
     families: &[usize],
     check: &mut DerivativeCheck,

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::RunError;
 use super::folder::{Folder, FolderError};
+use crate::files::whole::Content;
 use crate::files::{Inputs, whole};
 use crate::report::earlier::{self, Earlier};
 
@@ -182,6 +183,18 @@ impl Writer {
     pub fn file(&mut self, name: &str, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.at = self.place.join(name);
         self.set.write(&self.at, content)
+    }
+
+    /// Files that are written side by side.
+    ///
+    /// # Errors
+    /// Whatever the content or the file system says of the first that cannot be written.
+    pub fn files(&mut self, files: Vec<(&str, Content<'_>)>) -> io::Result<()> {
+        let placed = files.into_iter().map(|(name, content)| (self.place.join(name), content)).collect();
+        self.set.write_all(placed).map_err(|(path, cause)| {
+            self.at = path;
+            cause
+        })
     }
 
     fn names(&self) -> Vec<String> {
