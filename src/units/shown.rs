@@ -42,7 +42,7 @@ pub struct Shown {
     pub system: System,
     /// Units to be shown instead, with their names.
     pub wanted: Vec<(Unit, String)>,
-    /// Of variables, by the name that is declared: `x`, `support.b`.
+    /// Of variables, by the name that is declared: `x`; of those of sections by that of the dimension, `.b`, or by all of it, `support.b`.
     pub variables: HashMap<String, Dimension>,
     /// Of rows, by the names of their constraints.
     pub rows: HashMap<String, Dimension>,
@@ -63,8 +63,7 @@ impl Shown {
     /// assert_eq!((label.factor, label.name.as_str()), (1000.0, "mm"));
     /// ```
     pub fn variable(&self, name: &str) -> Option<Label> {
-        let known = self.variables.get(name).or_else(|| self.variables.get(stem(name)));
-        self.label(*known?)
+        self.label(self.of_variable(name)?)
     }
 
     /// What a row such as `stress#2[r1]` is told in.
@@ -84,8 +83,12 @@ impl Shown {
 
     /// The file's own unit of a variable.
     pub fn own_of_variable(&self, name: &str) -> Option<String> {
-        let known = self.variables.get(name).or_else(|| self.variables.get(stem(name)));
-        self.own(*known?)
+        self.own(self.of_variable(name)?)
+    }
+
+    fn of_variable(&self, name: &str) -> Option<Dimension> {
+        let of_section = || name.rfind('.').and_then(|dot| self.variables.get(&name[dot..]));
+        self.variables.get(name).or_else(|| self.variables.get(stem(name))).or_else(of_section).copied()
     }
 
     /// The file's own unit of a row.

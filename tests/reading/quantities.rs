@@ -138,3 +138,27 @@ fn a_name_hidden_in_a_unit_is_warned_of() {
         read_text("hidden.toml", text).map(|input| input.warnings).unwrap_or_default().into_iter().map(|w| w.message).collect();
     assert!(messages.contains(&"`t` is a part of the unit here, not what has this name".to_owned()), "{messages:?}");
 }
+
+#[test]
+fn dimensions_of_one_name_have_the_units_of_their_kinds() {
+    let text = r#"
+units = { length = "m" }
+minimize = "beam.b + beam.r + oval.b + oval.r*beam.h"
+[sections.beam]
+kind = "h-beam"
+tw = 0.01
+b = { lower = 0.1, upper = 0.3 }
+tf = 0.02
+h = 0.4
+r = { lower = 0.01, upper = 0.02 }
+[sections.oval]
+kind = "superellipse"
+a = 0.1
+b = { lower = 0.1, upper = 0.3 }
+r = { lower = 2.0, upper = 3.0 }
+"#;
+    let subject = Subject::of_text("units.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let unit = |name: &str| subject.about.shown.own_of_variable(name);
+    let metres = || Some("m".to_owned());
+    assert_eq!([unit("beam.b"), unit("beam.r"), unit("oval.b"), unit("oval.r")], [metres(), metres(), metres(), None]);
+}

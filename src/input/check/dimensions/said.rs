@@ -1,5 +1,7 @@
 //! What was inferred, for `check --units`.
 
+use std::collections::BTreeMap;
+
 use super::Measured;
 use super::walk::Walk;
 use crate::expression::ast::Collection;
@@ -62,14 +64,38 @@ impl Walk<'_, '_> {
             let form = self.unknown(format!("name: {}", entry.name.text));
             shown.variables.extend(self.known(&form).map(|dimension| (entry.name.text.clone(), dimension)));
         }
-        for j in 0..self.assembly.problem.variables.origin.len() {
-            let Origin::Dimension(section, position) = self.assembly.problem.variables.origin[j] else { continue };
-            let Some(form) = sections_form(&self.assembly.problem, section as usize) else { continue };
-            let measures = self.of_section(Some(form.kind), form.dimensions[usize::from(position)]);
-            let name = self.assembly.problem.variable_name(j);
-            shown.variables.extend(self.known(&measures).map(|dimension| (name, dimension)));
-        }
+        self.show_sections(&mut shown);
         shown
+    }
+
+    /// Variables that are dimensions of sections: by the dimension's name alone where all kinds with it agree what it measures, for there may
+    /// be a million of them.
+    fn show_sections(&mut self, shown: &mut Shown) {
+        let problem = &self.assembly.problem;
+        let dimension = |j: usize| match problem.variables.origin[j] {
+            Origin::Dimension(section, position) => {
+                sections_form(problem, section as usize).map(|form| (form.dimensions[usize::from(position)], form.kind))
+            }
+            _ => None,
+        };
+        let mut measured: BTreeMap<(&str, &str), Option<Dimension>> = BTreeMap::new();
+        for (name, kind) in (0..problem.variables.origin.len()).filter_map(dimension) {
+            measured.entry((name, kind)).or_insert_with(|| {
+                let form = self.of_section(Some(kind), name);
+                self.known(&form)
+            });
+        }
+        let agree = |name: &str| {
+            let mut all = measured.range((name, "")..).take_while(|((other, _), _)| *other == name).map(|(_, measures)| measures);
+            all.next().is_none_or(|first| all.all(|other| other == first))
+        };
+        for (&(name, _), measures) in measured.iter().filter(|((name, _), _)| agree(name)) {
+            shown.variables.extend(measures.map(|measures| (format!(".{name}"), measures)));
+        }
+        for j in 0..problem.variables.origin.len() {
+            let Some((name, kind)) = dimension(j).filter(|(name, _)| !agree(name)) else { continue };
+            shown.variables.extend(measured[&(name, kind)].map(|measures| (problem.variable_name(j), measures)));
+        }
     }
 
     fn one(&mut self, name: String, key: String, value: Option<f64>) -> Measured {
