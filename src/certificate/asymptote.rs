@@ -42,14 +42,16 @@ pub(super) fn towards_bounds(point: &Point<'_>, active: &Active<'_>, tolerance: 
         (x != bound && (rests || (x - bound).abs() <= 1e-8 * size)).then_some((j, bound))
     };
     let near: Vec<(usize, f64)> = (0..point.x.len()).filter_map(near).collect();
-    let value = |share: f64| {
+    let at_share = |share: f64| {
         let mut x = point.x.to_vec();
         near.iter().for_each(|&(j, bound)| x[j] = bound + share * (x[j] - bound));
-        Trial::at(point, &x).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective)
+        x
+    };
+    let value = |share: f64| {
+        Trial::at(point, &at_share(share)).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective)
     };
     let on_bounds = || {
-        let mut x = point.x.to_vec();
-        near.iter().for_each(|&(j, bound)| x[j] = bound);
+        let x = at_share(0.0);
         point.origin.model.objective(&x).and_then(|_| point.origin.model.constraints(&x, &mut vec![0.0; meta.rows()]))
     };
     if near.is_empty() || !matches!(on_bounds(), Err(EvaluationError::Invalid { .. })) {

@@ -18,6 +18,15 @@ pub use kronecker::kronecker;
 pub use polynomial::Polynomial;
 pub use quadrature::integrate;
 
+/// aᵀb
+///
+/// ```
+/// assert_eq!(ribopt::math::dot(&[1.0, 2.0], &[3.0, 4.0]), 11.0);
+/// ```
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// The value nearest to `value` between two limits, infinite where open: the one way a point is moved inside.
 ///
 /// ```

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::rust_files;
+
 /// Rooms from the top of the house to the ground; a room may use those on lower floors only.
 const FLOORS: &[&[&str]] = &[
     &["main"],
@@ -95,21 +97,13 @@ fn source_folder() -> PathBuf {
 
 /// Every source file with its room: the first part of its path below src.
 fn sources() -> Vec<(PathBuf, String)> {
-    let (root, mut found, mut folders) = (source_folder(), Vec::new(), vec![source_folder()]);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let first = path.strip_prefix(&root).unwrap().components().next().unwrap();
-                let room = Path::new(first.as_os_str()).file_stem().unwrap().to_string_lossy().into_owned();
-                found.push((path, room));
-            }
-        }
-    }
-    found.sort();
-    found
+    let root = source_folder();
+    let with_room = |path: PathBuf| {
+        let first = path.strip_prefix(&root).unwrap().components().next().unwrap();
+        let room = Path::new(first.as_os_str()).file_stem().unwrap().to_string_lossy().into_owned();
+        (path, room)
+    };
+    rust_files([source_folder()]).into_iter().map(with_room).collect()
 }
 
 fn floor_of(room: &str) -> Option<usize> {

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::rust_files;
+
 /// Lines of a file, tests and comments included.
 const LONGEST_FILE: usize = 300;
 /// Lines of a function, signature and closing brace included.
@@ -69,19 +71,7 @@ fn declared(line: &str) -> Option<&str> {
 
 fn sources() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (mut found, mut folders) =
-        (Vec::new(), ["src", "tests", "examples", "benches", "python/src"].map(|folder| root.join(folder)).to_vec());
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                found.push((path.strip_prefix(root).unwrap().to_owned(), text));
-            }
-        }
-    }
-    found.sort();
-    found
+    let folders = ["src", "tests", "examples", "benches", "python/src"].map(|folder| root.join(folder));
+    let with_text = |path: PathBuf| (path.strip_prefix(root).unwrap().to_owned(), fs::read_to_string(&path).unwrap());
+    rust_files(folders).into_iter().map(with_text).collect()
 }

@@ -158,8 +158,8 @@ impl<'w, 'p> Walk<'w, 'p> {
         let relative = |j: usize| direction[j] / point.sizes[j];
         let is_along = |row: usize| point.row_in_sizes(row).map(|(j, slope)| slope * relative(j)).sum::<f64>().abs() <= most;
         let beside = self.loose.iter().filter(|j| self.free.binary_search(j).is_err());
-        let left = self.held.iter().zip(&self.may_be_left).filter(|(_, may_be_left)| **may_be_left);
-        beside.copied().all(|j| relative(j).abs() <= most) && left.into_iter().all(|(&row, _)| is_along(row))
+        let mut left = self.held.iter().zip(&self.may_be_left).filter(|(_, may_be_left)| **may_be_left);
+        beside.copied().all(|j| relative(j).abs() <= most) && left.all(|(&row, _)| is_along(row))
     }
 
     /// Growing steps until the objective changes.

@@ -8,6 +8,7 @@ use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
 use crate::linear_algebra::{FactorizationError, Inertia};
+use crate::math::dot;
 use crate::math::split_mix::SplitMix;
 
 /// Rounds of the decomposition of a small matrix, which needs two or three for each of its rows.
@@ -157,7 +158,7 @@ impl<'a> Kkt<'a> {
                 size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
                 v.iter_mut().for_each(|v| *v /= size);
             }
-            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * product(&v, &v) {
+            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * dot(&v, &v) {
                 basis.extend(beyond(&basis, &v));
                 if is_new(&found, &v) {
                     found.push(v);
@@ -165,7 +166,7 @@ impl<'a> Kkt<'a> {
             }
         }
         for v in self.apart(&basis) {
-            if self.bend(&v).abs() <= FLAT_SHIFT * product(&v, &v) && is_new(&found, &v) {
+            if self.bend(&v).abs() <= FLAT_SHIFT * dot(&v, &v) && is_new(&found, &v) {
                 found.push(v);
             }
         }
@@ -260,7 +261,7 @@ fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item
 
 /// Whether two vectors span one line.
 fn is_parallel(a: &[f64], b: &[f64]) -> bool {
-    product(a, b).powi(2) > 0.999 * product(a, a) * product(b, b)
+    dot(a, b).powi(2) > 0.999 * dot(a, a) * dot(b, b)
 }
 
 fn is_new(found: &[Vec<f64>], v: &[f64]) -> bool {
@@ -272,16 +273,12 @@ fn beyond(basis: &[Vec<f64>], v: &[f64]) -> Option<Vec<f64>> {
     let mut rest = v.to_vec();
     // Twice is enough (Giraud, Langou, Rozložník and van den Eshof 2005).
     for known in basis.iter().chain(basis) {
-        let share = product(known, &rest);
+        let share = dot(known, &rest);
         rest.iter_mut().zip(known).for_each(|(rest, known)| *rest -= share * known);
     }
-    let length = product(&rest, &rest).sqrt();
+    let length = dot(&rest, &rest).sqrt();
     rest.iter_mut().for_each(|rest| *rest /= length);
-    (length > INDEPENDENT * product(v, v).sqrt()).then_some(rest)
-}
-
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    (length > INDEPENDENT * dot(v, v).sqrt()).then_some(rest)
 }
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.

@@ -4,7 +4,7 @@ mod at_point;
 
 use std::sync::Arc;
 
-use crate::math::within;
+use crate::math::{dot, within};
 use crate::model::{Evaluation, EvaluationError, Meta, Model, NameTable, Names, Pattern, Substitution};
 use at_point::LogarithmicAt;
 
@@ -208,10 +208,6 @@ impl Slopes {
 /// t of the t·a that is nearest to b, by a·b and a·a; `None` where a is no direction.
 fn share(product: f64, square: f64) -> Option<f64> {
     Some(product / square).filter(|share| share.is_finite())
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// a·b of two sparse vectors by ascending places.

@@ -2,6 +2,7 @@
 //! algorithm 7.2).
 
 use super::face::FaceHessian;
+use crate::math::dot;
 
 /// Residual, relative to the gradient, at which the conjugate gradients end.
 const RESIDUAL: f64 = 1e-12;
@@ -40,10 +41,6 @@ fn to_boundary(p: &[f64], d: &[f64], radius: f64) -> f64 {
     let root = (b * b - a * c).max(0.0).sqrt();
     let tau = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
     if tau.is_finite() { tau.max(0.0) } else { 0.0 }
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 fn along(x: &[f64], length: f64, direction: &[f64]) -> Vec<f64> {

@@ -3,6 +3,7 @@
 
 use super::face::{Face, FaceHessian};
 use super::steihaug;
+use crate::math::dot;
 use crate::model::EvaluationError;
 
 /// η: a step is taken where the reduction is more than this share of the predicted one.
@@ -61,8 +62,4 @@ impl<'f, 'a> TrustRegion<'f, 'a> {
         (self.w, self.value) = (trial, value);
         Ok(falls)
     }
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }

@@ -4,7 +4,8 @@ use super::barrier;
 use super::filter::{Filter, at_most};
 use super::parameters::PARAMETERS;
 use super::state::State;
-use super::vectors::{dot, norm_sum};
+use super::vectors::norm_sum;
+use crate::math::dot;
 use crate::model::EvaluationError;
 
 /// θ and φ of a point.

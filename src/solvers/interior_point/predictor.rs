@@ -10,7 +10,8 @@ use super::iterate::Iterate;
 use super::kkt::{Blocks, RightHandSide};
 use super::parameters::PARAMETERS;
 use super::state::{State, Workspace};
-use super::vectors::{dot, moved};
+use super::vectors::moved;
+use crate::math::dot;
 use crate::model::EvaluationError;
 use crate::solvers::barrier::longest_multiplier_step;
 

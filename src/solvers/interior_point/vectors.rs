@@ -10,11 +10,6 @@ pub(super) fn norm_sum(values: &[f64]) -> f64 {
     values.iter().map(|value| value.abs()).sum()
 }
 
-/// aᵀb
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 /// target = point + length·step
 pub(super) fn moved(point: &[f64], length: f64, step: &[f64], target: &mut [f64]) {
     for ((target, point), step) in target.iter_mut().zip(point).zip(step) {

@@ -8,8 +8,9 @@ use std::sync::Arc;
 
 use super::energies::Derivatives;
 use super::smooth::{Curvature, Smooth, chained, turned};
-use super::{Solved, dot, unsolved};
+use super::{Solved, unsolved};
 use crate::linear_algebra::pencil::{Complement, Matrix};
+use crate::math::dot;
 use crate::model::EvaluationError;
 use crate::problem::modes::{Cut, Level, Pencil};
 

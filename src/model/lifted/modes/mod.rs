@@ -12,6 +12,7 @@ pub(super) use with_modes::WithModes;
 use super::Numbering;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::pencil::{Matrix, Spectrum, spectrum};
+use crate::math::dot;
 use crate::model::{AssemblyError, EvaluationError};
 use crate::problem::Problem;
 use crate::problem::modes::{Cut, Eigenvalue, NEVER, Pencil};
@@ -201,8 +202,4 @@ impl Solved<'_> {
 /// The eigenvalue that users know, [`NEVER`] where there is none.
 fn factor(pencil: Pencil, mu: f64) -> f64 {
     if mu > 0.0 { pencil.shown(mu).min(NEVER) } else { NEVER }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -19,15 +19,13 @@ pub(super) fn jacobian_pattern(own: &Meta, states: States) -> Pattern {
     // Written down as it stands, row by row: with thousands of rows and variables there is a lot of it.
     let mut pattern = Pattern::default();
     for row in 0..states.first_row {
-        let own_columns = own.jacobian.row(row).iter().copied().filter(|&j| (j as usize) < n);
-        let first = pattern.columns.len();
-        pattern.columns.extend(own_columns);
+        let mut columns: Vec<u32> = own.jacobian.row(row).iter().copied().filter(|&j| (j as usize) < n).collect();
         if !knows_no_state(own, row, n) {
-            let unknown = pattern.columns.split_off(first).into_iter().filter(|j| through.binary_search(j).is_err());
-            let mut all: Vec<u32> = unknown.chain(through.iter().copied()).collect();
-            all.sort_unstable();
-            pattern.columns.append(&mut all);
+            columns.extend(&through);
+            columns.sort_unstable();
+            columns.dedup();
         }
+        pattern.columns.append(&mut columns);
         pattern.offsets.push(pattern.columns.len());
     }
     pattern

@@ -41,14 +41,17 @@ pub(super) struct Condensed {
 impl Condensed {
     /// The condensed form of a large system; `None` where there is little to condense. `slack` tells the inequality rows.
     pub fn new(system: &System, slack: &[Option<usize>]) -> Option<Self> {
+        if system.order() < PARAMETERS.condensing.least_order {
+            return None;
+        }
         let alike = rows_alike(system, slack);
         let pays = |&i: &usize| slack[i].is_some_and(|_| pays(system.jacobian.row(i).len(), alike[system.jacobian.row(i)]));
         let (condensed, kept): (Vec<usize>, Vec<usize>) = (0..slack.len()).partition(pays);
-        let equalities: Vec<usize> = kept.iter().copied().filter(|&i| slack[i].is_none()).collect();
-        let n = system.primal.len();
-        if system.order() < PARAMETERS.condensing.least_order || condensed.len() < kept.len() {
+        if condensed.len() < kept.len() {
             return None;
         }
+        let n = system.primal.len();
+        let equalities: Vec<usize> = kept.iter().copied().filter(|&i| slack[i].is_none()).collect();
         let pattern = pattern(system, &condensed, &kept);
         // Every position looked up is in the pattern.
         let place = |(a, b): (u32, u32)| pattern.position(a.max(b) as usize, a.min(b)).unwrap_or_default();
