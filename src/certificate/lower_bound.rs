@@ -49,7 +49,7 @@ fn lowest(least: f64, most: f64, down: f64, up: f64) -> Option<f64> {
 }
 
 /// What rounding may have done to each ∂L/∂x_j.
-fn slope_errors(point: &Point<'_>, y: &[f64]) -> Vec<f64> {
+pub(super) fn slope_errors(point: &Point<'_>, y: &[f64]) -> Vec<f64> {
     let mut total: Vec<f64> = point.gradient.iter().map(|g| g.abs()).collect();
     let magnitudes: Vec<f64> = point.jacobian.iter().map(|a| a.abs()).collect();
     let weights: Vec<f64> = y.iter().map(|y| y.abs()).collect();

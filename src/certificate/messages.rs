@@ -62,6 +62,9 @@ pub(super) fn sentences(
     if certificate.led_on {
         all.push(format!("nothing tells how large some variables are, and the slope is small only beside the size 1: Newton's steps lead on, to another point{along}"));
     }
+    if certificate.falls_far_away {
+        all.push(format!("a slope that is small beside the variables' sizes leads to a lower point far away{along}"));
+    }
     if certificate.certified {
         all.extend(remarks(certificate));
     }

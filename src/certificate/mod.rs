@@ -4,6 +4,7 @@
 
 mod asymptote;
 mod candidates;
+mod far_slopes;
 mod farkas;
 mod feasibility;
 mod first_order;
@@ -232,10 +233,15 @@ impl<'a> Certifier<'a> {
         let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.variables.is_empty();
         let elsewhere = if may_deceive { self.led_on(point, &active, &mut runaway) } else { None };
         certificate.led_on = elsewhere.is_some();
+        let far = match self.class.is_global() && may_deceive && !certificate.led_on {
+            true => far_slopes::way_down(point, multipliers, &self.tolerances),
+            false => None,
+        };
+        certificate.falls_far_away = far.is_some();
         certificate.cut_short = point.is_cut_short();
-        let goes_on = !runaway.variables.is_empty() || certificate.led_on || certificate.cut_short;
+        let goes_on = !runaway.variables.is_empty() || elsewhere.is_some() || far.is_some() || certificate.cut_short;
         certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
-        certificate.escape = escape.or(descent).or(elsewhere);
+        certificate.escape = escape.or(descent).or(elsewhere).or(far);
         (certificate.negative_curvature, certificate.descends_at_higher_order) =
             (has_negative_curvature, descends_at_higher_order);
         (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);

@@ -71,6 +71,12 @@ parameters! {
         HONEST: f64 = 1.05;
     }
 
+    /// Small slopes that lead far.
+    far_slopes {
+        /// A way that leads too far is shortened to this share while its slope promises enough.
+        SHORTER: f64 = 0.1;
+    }
+
     /// Active rows that push nowhere.
     idle_rows {
         /// Such rows looked at.

@@ -112,6 +112,8 @@ pub struct Certificate {
     pub falls_without_end: bool,
     /// Newton's steps lead on, to another point: this one is stationary only in a measure that deceives.
     pub led_on: bool,
+    /// A slope that is small beside the variables' sizes leads to a feasible point far away that is lower: no global minimum.
+    pub falls_far_away: bool,
     /// The deadline ended a search for lower points before it was done: nothing is proved.
     pub cut_short: bool,
     /// d_j: |x_j|, or, where 0 is allowed and |x_j| is smaller, what is known of the variable's size otherwise

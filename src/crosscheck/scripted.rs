@@ -152,6 +152,21 @@ fn the_lower_of_two_minima_is_shown_and_they_do_not_agree() {
 }
 
 #[test]
+fn of_two_minima_of_a_convex_problem_the_higher_is_none() {
+    // At y = 1 a slope of 1e-7 over the size is accepted, and the parabola leaves no straight way to y = 1e6, 0.1 lower.
+    let model = Sample::new(&[1.0, 1.0, 1.0], |x| x[0] + (x[0] - 1.0).powi(2) - x[1] * 1e-7);
+    let model = model.bounds(&[1.0, 0.0, 0.0], &[2.0, 1e6, 1e9]).row(-INF, 0.0, |x| (x[1] - 1.0).powi(2) * 1e-6 - x[2]);
+    let near = || Script::new("near", &[&[1.0, 1.0, 0.0]]);
+    let alone = judged(&model, Class::Convex, &Settings::default(), &[&near()], None);
+    assert_eq!((alone.status, alone.objective), (Status::Certified, Some(0.9999999)));
+    let far = Script::new("far", &[&[1.0, 1e6, 2e6]]);
+    let found = judged(&model, Class::Convex, &Settings::default(), &[&near(), &far], None);
+    one_verdict(&found);
+    assert_eq!((found.status, found.best), (Status::Certified, Some(1)));
+    assert!(!found.answers[0].is_certified());
+}
+
+#[test]
 fn a_minimum_above_a_feasible_point_is_not_the_answer() {
     let (one, two) = (Script::new("one", &[&[bottom(1.0)], &[bottom(1.0)]]), Script::new("two", &[&[-0.9]]));
     let found = outcome(&two_wells(), &[&one, &two]);

@@ -28,7 +28,10 @@ pub(super) fn better_elsewhere(session: &Session<'_>, answers: &[Answer], best: 
 }
 
 /// At least one answer is certified.
-pub(super) fn certified(session: &Session<'_>, answers: Vec<Answer>) -> Outcome {
+pub(super) fn certified(session: &Session<'_>, mut answers: Vec<Answer>) -> Outcome {
+    if session.task.class.is_global() {
+        withdraw(session, &mut answers);
+    }
     let mut outcome = standing(session, answers, Status::Certified);
     outcome.scope = Extent::of(session.task.class);
     outcome.agreement = agreement(session, &outcome);
@@ -41,6 +44,17 @@ pub(super) fn certified(session: &Session<'_>, answers: Vec<Answer>) -> Outcome 
     }
     messages::certified(&mut outcome);
     outcome
+}
+
+/// Global minima of one problem have one value: where the best answer is lower than another beyond agreement, what was accepted of the
+/// other's slope was too much, and it is certified no more.
+fn withdraw(session: &Session<'_>, answers: &mut [Answer]) {
+    let Some(best) = best(session, answers).map(|best| answers[best].clone()) else { return };
+    for answer in answers.iter_mut().filter(|answer| answer.is_certified() && merit::is_lower(session, &best, answer)) {
+        let Some(certificate) = &mut answer.certificate else { continue };
+        (certificate.certified, certificate.scope) = (false, Extent::Local);
+        certificate.messages.push(format!("{} holds a lower point, and a convex problem has one minimum", best.backend));
+    }
 }
 
 /// A ray shows that the objective has no minimum.

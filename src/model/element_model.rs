@@ -15,6 +15,8 @@ pub(super) struct ElementModel {
     pub objective: Affine,
     /// The rows' affine parts: values along the Jacobian's pattern, zero elsewhere.
     pub linear_jacobian: Vec<f64>,
+    /// The rows' affine parts: their constants.
+    pub row_constants: Vec<f64>,
     /// Elements of the objective, by kernel.
     pub objective_groups: Vec<KernelGroup>,
     /// Elements of the rows, by kernel.
@@ -78,7 +80,7 @@ impl Model for ElementModel {
 
     fn constraints(&self, x: &[f64], values: &mut [f64]) -> Result<(), EvaluationError> {
         self.meta.jacobian.multiply(&self.linear_jacobian, x, values);
-        for (value, constant) in values.iter_mut().zip(&self.meta.row_constants) {
+        for (value, constant) in values.iter_mut().zip(&self.row_constants) {
             *value += constant;
         }
         let finite = match self.chunks() {

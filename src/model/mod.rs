@@ -65,8 +65,8 @@ pub struct Meta {
     pub row_lower: Vec<f64>,
     /// Upper limits of the rows, +∞ where open.
     pub row_upper: Vec<f64>,
-    /// The constant term of each row, where it is known; empty where none is. `3 - x >= 0` is `-x >= -3`: what a row's limit tells is told
-    /// by its distance from this.
+    /// The term of each row that no variable can move, fixed ones at their values, where it is known; empty where none is. `3 - x >= 0` is
+    /// `-x >= -3`: what a row's limit tells is told by its distance from this.
     pub row_constants: Vec<f64>,
     /// Which rows are affine in x.
     pub row_is_linear: Vec<bool>,

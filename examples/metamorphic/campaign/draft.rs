@@ -83,13 +83,15 @@ pub struct Origin {
     pub now: String,
     /// The latest first: from the draft's value back to the file's.
     pub steps: Vec<Step>,
+    /// How large the file's own answer makes it; 1 where it is 0 there, or nothing is known.
+    pub size: f64,
 }
 
 impl Origin {
-    /// The file's unit in those of the draft.
-    pub fn unit(&self) -> f64 {
+    /// Its size in the draft's units.
+    pub fn size_in_draft(&self) -> f64 {
         let factor = |step: &Step| if let Step::Affine(factor, _) = step { factor.abs() } else { 1.0 };
-        self.steps.iter().map(factor).product::<f64>().recip()
+        self.size / self.steps.iter().map(factor).product::<f64>()
     }
 
     /// How far the draft's zero lies from the file's, in the file's unit.

@@ -165,12 +165,16 @@ fn side_by_side<T: Send>(threads: usize, n: usize, result: &(dyn Fn(usize) -> T 
 }
 
 fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {
-    let draft = reading::read(path)?;
+    let mut draft = reading::read(path)?;
     let name = name(path);
     let folder = plan.folder.join(format!("as-it-is-{name}"));
     let run = solving::run(path, &draft.untransformed(), path, &folder, plan.seconds);
     let _ = fs::remove_dir_all(&folder);
     let run = run?;
+    for origin in &mut draft.origins {
+        let answer = run.point.get(&origin.in_file).map_or(0.0, |value| value.abs());
+        origin.size = if answer > 0.0 && answer.is_finite() { answer } else { 1.0 };
+    }
     let undecided = [Status::LimitReached, Status::Interrupted, Status::InvalidValue];
     let truth = match promised(path, &run)? {
         Some(truth) => truth,

@@ -45,7 +45,7 @@ pub fn read(path: &Path) -> Result<Draft, String> {
         rows,
         rest: rest(table, path.parent().unwrap_or(Path::new(""))),
         ranges: dimension_ranges(&problem),
-        origins: names.map(|name| Origin { in_file: name.clone(), now: name, steps: Vec::new() }).collect(),
+        origins: names.map(|name| Origin { in_file: name.clone(), now: name, steps: Vec::new(), size: 1.0 }).collect(),
         factor: 1.0,
     };
     write_out_arrays(&mut draft);

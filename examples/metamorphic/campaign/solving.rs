@@ -29,6 +29,8 @@ pub struct Run {
     pub objective: Option<f64>,
     pub lower_bound: Option<f64>,
     pub message: String,
+    /// Where it ended, by the names of the variables.
+    pub point: HashMap<String, f64>,
     pub seconds: f64,
     /// What the file itself says of a certified point taken back to it.
     pub in_file: Option<InFile>,
@@ -60,6 +62,7 @@ pub fn run(path: &Path, draft: &Draft, original: &Path, folder: &Path, seconds: 
         objective: outcome.objective.map(in_file_units),
         lower_bound: outcome.lower_bound.map(in_file_units),
         message: outcome.message,
+        point: outcome.x.iter().enumerate().map(|(j, &x)| (subject.model().variable_name(j), x)).collect(),
         seconds,
         in_file,
     })

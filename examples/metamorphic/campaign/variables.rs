@@ -118,16 +118,16 @@ fn scale(draft: &mut Draft, random: &mut Random, at: usize) {
 /// A bound as far away as this says «none» and not how large the variable is.
 const NO_SIZE: f64 = 1e12;
 
-/// Variables counted from elsewhere, by up to ten times their size. Powers of two: most bounds are moved without rounding.
+/// Variables counted from elsewhere, by up to ten times their size. Powers of two: most bounds are moved without rounding. Where neither
+/// start nor bound tells it, the file's own answer does: counted from a million sizes away, a variable has lost the digits it is asked for.
 pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
     lift_dimensions(draft);
     for at in (0..draft.variables.len()).filter(|&at| !draft.variables[at].is_slack).collect::<Vec<usize>>() {
         let variable = &draft.variables[at];
         let shift = |i: usize| {
-            // What nothing tells is 1 in the file, not where the file has been scaled.
             let origin = draft.origins.iter().find(|origin| origin.now == variable.element(i));
-            let unit = || origin.map_or(1.0, Origin::unit);
-            let size = variable.size(i).filter(|&size| size < NO_SIZE).unwrap_or_else(unit);
+            let of_answer = || origin.map_or(1.0, Origin::size_in_draft);
+            let size = variable.size(i).filter(|&size| size < NO_SIZE).unwrap_or_else(of_answer);
             let by = random.of_magnitude(-1.0, 1.0) * size;
             Step::Affine(1.0, by.signum() * by.abs().log2().round().exp2())
         };

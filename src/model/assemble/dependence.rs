@@ -4,6 +4,8 @@ use crate::problem::{Dimension, Formula, Problem};
 
 /// Two answers per definition and one per section, computed once.
 pub(super) struct Dependence {
+    /// Which variables count as numbers.
+    given: Vec<bool>,
     definition_reaches: Vec<bool>,
     definition_constant: Vec<bool>,
     section_constant: Vec<bool>,
@@ -12,7 +14,13 @@ pub(super) struct Dependence {
 
 impl Dependence {
     pub fn of(problem: &Problem) -> Dependence {
+        Dependence::beside(problem, Vec::new())
+    }
+
+    /// The same where these variables, one flag each, count as numbers.
+    pub fn beside(problem: &Problem, given: Vec<bool>) -> Dependence {
         let mut facts = Dependence {
+            given,
             definition_reaches: vec![false; problem.definitions.len()],
             definition_constant: vec![true; problem.definitions.len()],
             section_constant: Vec::new(),
@@ -25,7 +33,7 @@ impl Dependence {
             .map(|section| {
                 problem.dimensions(section).iter().all(|dimension| match dimension {
                     Dimension::Constant(_) => true,
-                    Dimension::Variable(_) => false,
+                    Dimension::Variable(variable) => facts.is_given(*variable),
                     Dimension::Formula(formula) => facts.is_constant(&problem.dimension_formulas[*formula as usize]),
                 })
             })
@@ -53,12 +61,16 @@ impl Dependence {
         }
     }
 
+    fn is_given(&self, variable: u32) -> bool {
+        self.given.get(variable as usize).is_some_and(|given| *given)
+    }
+
     /// True where no variable can stand inside.
     pub fn is_constant(&self, formula: &Formula) -> bool {
         match formula {
             Formula::OwnLength => !self.lengths_vary,
-            Formula::Variable(_)
-            | Formula::RibVolume(_)
+            Formula::Variable(variable) => self.is_given(*variable),
+            Formula::RibVolume(_)
             | Formula::Volume(_)
             | Formula::OwnProperty(_)
             | Formula::EndProperty(..)

@@ -19,6 +19,7 @@ mod accumulate;
 mod classify;
 mod dependence;
 mod expression_graph;
+mod fixed_terms;
 mod kernel_groups;
 mod member;
 mod profile;
@@ -43,6 +44,7 @@ use accumulate::{Summation, Templates};
 pub use classify::{Classification, classify, convex_constraints};
 use dependence::Dependence;
 use expression_graph::{Context, Item};
+use fixed_terms::FixedTerms;
 use kernel_groups::{Groups, Kernels};
 pub use volumes::volumes;
 use walk::Walk;
@@ -119,6 +121,8 @@ pub struct AssemblyError {
 #[derive(Default)]
 struct Rows {
     affine: Vec<Affine>,
+    /// Their terms that no variable can move: the affine parts' constants, and what fixed variables make of others.
+    fixed_terms: Vec<f64>,
     lower: Vec<f64>,
     upper: Vec<f64>,
     nonlinear: Vec<bool>,
@@ -133,19 +137,24 @@ impl Rows {
         facts: &Dependence,
         kernels: &mut Kernels,
     ) -> Result<Rows, AssemblyError> {
-        let mut rows = Rows::default();
+        let (mut rows, fixed) = (Rows::default(), FixedTerms::of(problem));
         for ((index, constraint), sides) in problem.constraints.iter().enumerate().zip(sides) {
             let (mut walk, mut templates) = (Walk::new(problem, facts), Templates::default());
             for item in 0..constraint.scope.rows() {
                 let origin = RowOrigin { constraint: index as u32, item: item as u32 };
-                rows.add(sides, context(&constraint.scope, item), origin, &mut walk, kernels, &mut templates).map_err(
-                    |cause| AssemblyError { place: format!("{} (constraint {})", constraint.place, constraint.name), cause },
-                )?;
+                let context = context(&constraint.scope, item);
+                let added = rows.add(sides, context, origin, &mut walk, kernels, &mut templates);
+                let constant = added.map_err(|cause| AssemblyError {
+                    place: format!("{} (constraint {})", constraint.place, constraint.name),
+                    cause,
+                })?;
+                rows.fixed_terms.push(fixed.as_ref().map_or(constant, |fixed| fixed.term(sides.0, context)));
             }
         }
         Ok(rows)
     }
 
+    /// Adds a row; its constant term.
     fn add<'a>(
         &mut self,
         (left, right): (&'a Formula, &Limit),
@@ -154,20 +163,21 @@ impl Rows {
         walk: &mut Walk<'a>,
         kernels: &mut Kernels,
         templates: &mut Templates<'a>,
-    ) -> Result<(), TapeError> {
+    ) -> Result<f64, TapeError> {
         let row = Some(self.affine.len() as u32);
         let (problem, groups) = (walk.problem, &mut self.groups);
         let mut summation = Summation { problem, kernels, templates, groups, affine: Affine::default(), row, elements: 0 };
         walk.visit(left, 1.0, context, &mut summation)?;
         let Summation { mut affine, elements, .. } = summation;
         affine.merge();
+        let constant = affine.constant;
         self.affine.push(affine);
         self.nonlinear.push(elements > 0);
         let (lower, upper) = limits(right, |formula| walk.constant(formula, context));
         self.lower.push(lower);
         self.upper.push(upper);
         self.origin.push(origin);
-        Ok(())
+        Ok(constant)
     }
 }
 
@@ -251,7 +261,7 @@ fn connect(
         typical: padded(&problem.variables.typical, n),
         row_lower: rows.lower,
         row_upper: rows.upper,
-        row_constants: rows.affine.iter().map(|affine| affine.constant).collect(),
+        row_constants: rows.fixed_terms,
         row_is_linear: rows.nonlinear.iter().map(|nonlinear| !nonlinear).collect(),
         objective_is_linear: objective_groups.is_empty(),
         states: None,
@@ -260,6 +270,8 @@ fn connect(
         names: NameTable::new(ProblemNames { problem: Arc::clone(problem), row_origin: Arc::clone(&row_origin) }),
         ..Meta::default()
     };
-    let inner = ElementModel { meta, objective, linear_jacobian, objective_groups, row_groups, ..ElementModel::default() };
+    let row_constants = rows.affine.iter().map(|affine| affine.constant).collect();
+    let inner =
+        ElementModel { meta, objective, linear_jacobian, row_constants, objective_groups, row_groups, ..ElementModel::default() };
     RibModel { problem: Arc::clone(problem), inner, row_origin, members: OnceLock::new() }
 }

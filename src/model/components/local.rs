@@ -90,7 +90,7 @@ impl Local for DenseComponent<'_> {
         }
         let rows = partition.rows(component);
         self.constants.clear();
-        self.constants.extend(rows.iter().map(|&i| model.meta.row_constants[i as usize]));
+        self.constants.extend(rows.iter().map(|&i| model.row_constants[i as usize]));
         self.affine.clear();
         for (row, &i) in rows.iter().enumerate() {
             let entries =

@@ -22,6 +22,7 @@ pub(super) fn submodel(view: ComponentView<'_>, k: usize) -> ElementModel {
     ElementModel {
         objective: Affine { constant: 0.0, coefficients: variables.iter().filter_map(own).collect() },
         linear_jacobian,
+        row_constants: row(&parent.row_constants),
         meta: Meta {
             lower: variable(&meta.lower),
             upper: variable(&meta.upper),
