@@ -27,6 +27,16 @@ fn rounding(session: &Session<'_>, x: &[f64], objective: f64) -> f64 {
     ROUNDINGS * f64::EPSILON * (objective.abs() + terms)
 }
 
+/// The largest of a judged point's residuals, each in units of what is accepted.
+pub(super) fn inexactness(session: &Session<'_>, answer: &Answer) -> f64 {
+    let accepted = session.tolerances;
+    let worst = |own: &Certificate| {
+        let optimality = own.dual_infeasibility.max(own.complementarity) / accepted.optimality;
+        optimality.max(own.primal_infeasibility / accepted.constraint)
+    };
+    answer.certificate.as_ref().map_or(f64::INFINITY, worst)
+}
+
 /// f + Σ|multiplier|·violation: what the answer's objective is worth once its violation is paid for at the prices of a certified
 /// point. To first order no point is below that point's objective by violating limits.
 pub(super) fn priced(session: &Session<'_>, answer: &Answer, prices: &Certificate) -> Option<f64> {

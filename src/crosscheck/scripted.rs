@@ -144,6 +144,15 @@ fn equal_minima_agree() {
 }
 
 #[test]
+fn of_minima_that_agree_the_most_exact_is_shown() {
+    // x ≥ 1 violated by 5e-9, which is tolerated, is lower, and no better for it.
+    let model = Sample::new(&[2.0], |x| x[0]).row(1.0, INF, |x| x[0] * x[0]);
+    let found = outcome(&model, &[&Script::new("one", &[&[1.0 - 2e-9]]), &Script::new("two", &[&[1.0]])]);
+    assert_eq!((found.status, found.best, found.objective), (Status::Certified, Some(1), Some(1.0)));
+    assert!(found.agreement.unwrap().agree);
+}
+
+#[test]
 fn the_lower_of_two_minima_is_shown_and_they_do_not_agree() {
     let (left, right) = (bottom(-1.0), bottom(1.0));
     let found = outcome(&two_wells(), &[&Script::new("one", &[&[right]]), &Script::new("two", &[&[left]])]);

@@ -11,9 +11,13 @@ use crate::recession::{Fall, Ray};
 /// Certified points of equal value this far apart, relative, are two minimisers.
 const APART: f64 = 1e-3;
 
-/// The best answer's place.
+/// The best answer's place: of certified ones that agree the most exact, not the one that used up what its rows tolerate.
 pub(super) fn best(session: &Session<'_>, answers: &[Answer]) -> Option<usize> {
-    (0..answers.len()).reduce(|best, k| if session.is_better(&answers[k], &answers[best]) { k } else { best })
+    let best = (0..answers.len()).reduce(|best, k| if session.is_better(&answers[k], &answers[best]) { k } else { best })?;
+    let Some(lowest) = answers[best].certificate.as_ref().filter(|own| own.certified) else { return Some(best) };
+    let highest = lowest.objective + merit::level(session, &answers[best].solution.x, lowest);
+    let agree = (0..answers.len()).filter(|&k| answers[k].is_certified() && answers[k].objective <= Some(highest));
+    agree.min_by(|&a, &b| merit::inexactness(session, &answers[a]).total_cmp(&merit::inexactness(session, &answers[b])))
 }
 
 /// An answer that is feasible and better than the best by more than what counts as agreement; none where a rigorous bound says
