@@ -2,24 +2,29 @@
 
 use super::higher_order::Trial;
 use super::point::Point;
+use super::residuals::is_far_out;
 use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
-use crate::certificate::parameters::runaway::BESIDE;
+use crate::certificate::parameters::runaway::{BESIDE, NEARER};
 use crate::model::{EvaluationError, Model};
 use crate::recession;
 
 /// Whether the objective is level to the last digit all about the point, though not where the variables come from. One that is analytic is then
-/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it.
+/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it. Far out «about» may
+/// be near: where an exponent's terms cancel one another, the least step has it overflow.
 pub(super) fn is_level_about(point: &Point<'_>) -> bool {
     let (meta, model) = (point.meta(), &point.origin.model);
-    let is_level = |way: f64| {
-        let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, way * BESIDE), vec![0.0; point.x.len()]);
+    let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
+    let is_level_at = |step: f64| {
+        let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
         let value = model.gradient(&x, &mut gradient);
-        value.is_ok_and(|value| value == point.objective) && gradient.iter().all(|slope| *slope == 0.0)
+        value.is_ok_and(|value| value == point.objective) && free.iter().all(|&j| gradient[j] == 0.0)
     };
     let is_other = || model.objective(&meta.start).is_ok_and(|value| value != point.objective);
-    point.sigma == 0.0 && !meta.objective_is_linear && is_level(1.0) && is_level(-1.0) && is_other()
+    let is_level = |step: f64| is_level_at(step) && is_level_at(-step);
+    let nearer = || is_far_out(point) && NEARER.into_iter().any(is_level);
+    point.sigma == 0.0 && !meta.objective_is_linear && (is_level(BESIDE) || nearer()) && is_other()
 }
 
 /// The variables that have moved most from where they come from.

@@ -17,6 +17,7 @@ mod lower_bound;
 mod messages;
 mod multipliers;
 mod newton;
+mod parallel_rows;
 pub mod parameters;
 mod point;
 mod propagation;
@@ -94,8 +95,13 @@ impl<'a> Certifier<'a> {
 
     /// Whether `x` passes; cheap where it is far from feasible. A stop test for solvers.
     pub fn accepts(&self, x: &[f64]) -> bool {
-        self.primal_infeasibility(x).is_some_and(|worst| worst <= self.tolerances.constraint)
-            && self.certify(x, None).is_ok_and(|certificate| certificate.certified)
+        self.passed(x).is_some()
+    }
+
+    /// The certificate of an `x` that passes; cheap where it is far from feasible.
+    pub fn passed(&self, x: &[f64]) -> Option<Certificate> {
+        let is_feasible = self.primal_infeasibility(x).is_some_and(|worst| worst <= self.tolerances.constraint);
+        is_feasible.then(|| self.certify(x, None).ok()).flatten().filter(|certificate| certificate.certified)
     }
 
     /// The primal infeasibility of a certificate at `x`; `None` where the model has no value or derivative.

@@ -176,6 +176,8 @@ parameters! {
     runaway {
         /// Level to the last digit BESIDE·d_j about the point, both ways, all derivatives 0: an asymptote (x^p is so for p > 107 only).
         BESIDE: f64 = 1e-3;
+        /// … or so about one that is far from where its variables come from.
+        NEARER: [f64; 3] = [1e-6, 1e-9, 1e-12];
         /// |vᵀSv| ≤ FLAT·|v|²: followed outwards.
         FLAT: f64 = 1e-3;
         /// Flat directions looked at.

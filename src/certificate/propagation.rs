@@ -1,22 +1,29 @@
-//! What the linear rows say of the box: bounds tightened row by row until one row cannot be met (feasibility-based bound
+//! What the linear rows say of one another and of the box: bounds tightened row by row until one row cannot be met (feasibility-based bound
 //! tightening). A contradiction found so is a theorem, wherever solvers end.
 
+use super::known_sizes::known_sizes;
+use super::parallel_rows;
+use super::point::Origin;
 use super::row_range::{End, range};
 use crate::certificate::parameters::infeasibility::{EASE, SWEEPS};
 use crate::model::Model;
 
 /// lower ≤ Σ a_j·x_j ≤ upper
-struct Line {
-    entries: Vec<(usize, f64)>,
-    lower: f64,
-    upper: f64,
+pub(super) struct Line {
+    pub(super) entries: Vec<(usize, f64)>,
+    pub(super) lower: f64,
+    pub(super) upper: f64,
 }
 
-/// A row that no point of the box meets once the other linear rows have tightened it, by more than the tolerance; `None` where
-/// that is not found.
+/// A row that no point of the box meets once the other linear rows have tightened it, or that contradicts one it is a multiple of, by more than
+/// the tolerance; `None` where that is not found.
 pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
     let meta = model.meta();
-    let lines = lines(model)?;
+    let (lines, jacobian) = lines(model)?;
+    let sizes = || known_sizes(&Origin::new(model), &meta.start, &jacobian);
+    if let Some(row) = parallel_rows::contradiction(&lines, sizes, EASE * tolerance) {
+        return Some(row);
+    }
     let ease = |bound: f64, sign: f64| bound + sign * EASE * tolerance * bound.abs();
     let mut lower: Vec<f64> = meta.lower.iter().map(|&bound| ease(bound, -1.0)).collect();
     let mut upper: Vec<f64> = meta.upper.iter().map(|&bound| ease(bound, 1.0)).collect();
@@ -37,8 +44,9 @@ pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
     None
 }
 
-/// The linear rows; a row's constant is taken off its limits. `None` where the model has no value at its start.
-fn lines(model: &dyn Model) -> Option<Vec<Option<Line>>> {
+/// The linear rows, and the Jacobian they are read from; a row's constant is taken off its limits. `None` where the model has no value at its
+/// start.
+fn lines(model: &dyn Model) -> Option<(Vec<Option<Line>>, Vec<f64>)> {
     let meta = model.meta();
     if !(0..meta.rows()).any(|i| meta.is_row_linear(i)) {
         return None;
@@ -55,7 +63,8 @@ fn lines(model: &dyn Model) -> Option<Vec<Option<Line>>> {
         let (constant, error) = (rows[i] - terms.iter().sum::<f64>(), (terms.len() + 4) as f64 * f64::EPSILON * magnitude);
         Line { entries, lower: meta.row_lower[i] - constant - error, upper: meta.row_upper[i] - constant + error }
     };
-    Some((0..meta.rows()).map(|i| meta.is_row_linear(i).then(|| line(i))).collect())
+    let lines = (0..meta.rows()).map(|i| meta.is_row_linear(i).then(|| line(i))).collect();
+    Some((lines, jacobian))
 }
 
 enum Tightened {

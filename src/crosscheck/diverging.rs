@@ -93,6 +93,13 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
 }
 
+/// Whether variables that have run off at `far` have done so at x.
+pub(super) fn runs_with(session: &Session<'_>, x: &[f64], far: &[f64]) -> bool {
+    let start = &session.task.model.meta().start;
+    let has_run_off = |x: f64, start: f64| (x - start).abs() > TOO_FAR * size(start);
+    start.iter().zip(x.iter().zip(far)).any(|(&start, (&x, &far))| has_run_off(x, start) && has_run_off(far, start))
+}
+
 /// Whether a point lies so far from the start that rounding may hide a violation of the rows. States follow from the design, and may start next to
 /// nothing by chance.
 pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {

@@ -12,6 +12,12 @@ const ROUNDINGS: f64 = 64.0;
 /// σ beside an infinite slope says nothing of the objective's size: so many times the values at the point and the start at most.
 const STEEPEST: f64 = 1e3;
 
+/// Whether what a judged point leaves of slopes and gaps, (residual)·σ, is worth more than the agreement of its own objective.
+pub(super) fn is_coarse(certificate: &Certificate) -> bool {
+    let worth = certificate.dual_infeasibility.max(certificate.complementarity) * certificate.sigma;
+    worth > AGREEMENT * certificate.objective.abs()
+}
+
 /// Below which objectives do not differ from that of a judged point: the agreement, or the rounding of the objective's terms.
 pub(super) fn level(session: &Session<'_>, x: &[f64], certificate: &Certificate) -> f64 {
     let begun = session.task.model.objective(session.task.start).map_or(0.0, f64::abs);

@@ -1,6 +1,7 @@
 //! The task with what is needed to run backends and to judge what they bring.
 
 use super::clock::Clock;
+use super::merit;
 use super::pool;
 use super::{Answer, Task};
 use crate::backends::{Backend, Iteration, Job, PartTest, Solution, StopTest, Termination};
@@ -73,13 +74,13 @@ impl<'a> Session<'a> {
         self.task.model.complete(&mut start);
         let start = start.as_slice();
         let Some(other) = self.task.substitution_for(solver.backend) else {
-            let stop = |x: &[f64]| self.strict.accepts(x);
+            let stop = |x: &[f64]| self.is_enough(x);
             let part = |model: &dyn Model, x: &[f64]| self.accepts_part(model, x);
             let start = Start { x: start, multipliers, budget, stop: &stop, part: Some(&part) };
             let solution = self.solve(solver, self.task.model, &start, observer);
             return self.judged(solver, solution);
         };
-        let stop = |z: &[f64]| self.strict.accepts(&self.outward(z));
+        let stop = |z: &[f64]| self.is_enough(&self.outward(z));
         let mut translated = |iteration: &Iteration<'_>| {
             let objective = other.outward_objective(iteration.objective);
             observer(&Iteration { objective, x: &self.outward(iteration.x), ..*iteration });
@@ -92,6 +93,12 @@ impl<'a> Session<'a> {
         solution.multipliers = solution.multipliers.and_then(|y| other.outward_multipliers(self.task.model, z, &y));
         solution.x = self.outward(&solution.x);
         self.judged(solver, solution)
+    }
+
+    /// Whether a solver may stop at x: it passes with something to spare, and what that leaves of slopes and gaps is nothing beside the
+    /// objective, however steep that is elsewhere.
+    fn is_enough(&self, x: &[f64]) -> bool {
+        self.strict.passed(x).is_some_and(|certificate| !merit::is_coarse(&certificate))
     }
 
     /// x(z), inside the bounds to the last digit.

@@ -2,6 +2,7 @@
 
 use super::parameters::height::{DIGITS, EVEN, LAST};
 use crate::math::split_mix::SplitMix;
+use crate::model::Meta;
 
 /// How the objective behaves along a feasible way that goes on for ever.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,11 +26,15 @@ impl Height {
     }
 }
 
-/// What the last digits of x make of a function: `change(x')` is by how much its value at x' differs from that at x.
-pub(super) fn last_digits(x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
+/// What the last digits of x make of a function: `change(x')` is by how much its value at x' differs from that at x. Those of fixed variables
+/// are given.
+pub(super) fn last_digits(meta: &Meta, x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
     let noise_of = |digits: f64| {
         // Each by its own: variables moved alike would keep their differences.
-        let moved = |(j, x): (usize, &f64)| x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON);
+        let moved = |(j, x): (usize, &f64)| match meta.is_fixed(j) {
+            true => *x,
+            false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
+        };
         change(&x.iter().enumerate().map(moved).collect::<Vec<f64>>()).unwrap_or(0.0)
     };
     DIGITS.into_iter().map(noise_of).fold(0.0, f64::max)

@@ -220,7 +220,7 @@ impl<'a> Valley<'a> {
             let rows: f64 = there.1.iter().zip(&bought).map(|(there, here)| (there - here).abs()).sum();
             Some((there.0 - objective).abs() + rows)
         };
-        let noise = last_digits(&floor.x, change);
+        let noise = last_digits(self.site.model.meta(), &floor.x, change);
         let value = objective + bought.iter().map(|bought| bought.max(0.0)).sum::<f64>();
         Some(Height { value, noise: noise + ROUNDINGS * objective.abs() })
     }

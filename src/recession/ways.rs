@@ -166,7 +166,7 @@ impl Terrain<'_> {
         }
         let Some(x) = (self.nearest)(x) else { return Place::Barred };
         let Some(here) = value(&x) else { return Place::Void };
-        let noise = last_digits(&x, |there| Some((value(there)? - here).abs()));
+        let noise = last_digits(self.model.meta(), &x, |there| Some((value(there)? - here).abs()));
         Place::At(Height { value: here, noise: noise + ROUNDINGS * here.abs() })
     }
 

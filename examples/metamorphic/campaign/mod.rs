@@ -172,8 +172,8 @@ fn problem(path: &Path, plan: &Plan) -> Result<Problem, String> {
     let _ = fs::remove_dir_all(&folder);
     let run = run?;
     for origin in &mut draft.origins {
-        let answer = run.point.get(&origin.in_file).map_or(0.0, |value| value.abs());
-        origin.size = if answer > 0.0 && answer.is_finite() { answer } else { 1.0 };
+        let size = run.sizes.get(&origin.in_file).copied().filter(|_| run.status == Status::Certified).unwrap_or(0.0);
+        origin.size = if size > 0.0 && size < variables::NO_SIZE { size } else { 1.0 };
     }
     let undecided = [Status::LimitReached, Status::Interrupted, Status::InvalidValue];
     let truth = match promised(path, &run)? {

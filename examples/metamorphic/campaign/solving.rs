@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use ribopt::certificate::{Certificate, Certifier, Extent, Tolerances};
-use ribopt::crosscheck::Status;
+use ribopt::crosscheck::{Outcome, Status};
 use ribopt::files::Inputs;
 use ribopt::model::Class;
 use ribopt::run::choice::choose;
@@ -29,8 +29,8 @@ pub struct Run {
     pub objective: Option<f64>,
     pub lower_bound: Option<f64>,
     pub message: String,
-    /// Where it ended, by the names of the variables.
-    pub point: HashMap<String, f64>,
+    /// How large its answer makes the variables, by their names: what the certificate measures them by, where there is one.
+    pub sizes: HashMap<String, f64>,
     pub seconds: f64,
     /// What the file itself says of a certified point taken back to it.
     pub in_file: Option<InFile>,
@@ -54,7 +54,7 @@ pub fn run(path: &Path, draft: &Draft, original: &Path, folder: &Path, seconds: 
         Status::Certified => judged_in_file(&subject, &outcome.x, draft, original, folder)?,
         _ => None,
     };
-    let in_file_units = |value: f64| value / draft.factor;
+    let (in_file_units, sizes) = (|value: f64| value / draft.factor, sizes(&subject, &outcome));
     Ok(Run {
         status: outcome.status,
         scope: outcome.scope,
@@ -62,13 +62,18 @@ pub fn run(path: &Path, draft: &Draft, original: &Path, folder: &Path, seconds: 
         objective: outcome.objective.map(in_file_units),
         lower_bound: outcome.lower_bound.map(in_file_units),
         message: outcome.message,
-        point: outcome.x.iter().enumerate().map(|(j, &x)| (subject.model().variable_name(j), x)).collect(),
+        sizes,
         seconds,
         in_file,
     })
 }
 
-fn solved(path: &Path, folder: &Path, seconds: f64) -> Result<(Subject, ribopt::crosscheck::Outcome), String> {
+fn sizes(subject: &Subject, outcome: &Outcome) -> HashMap<String, f64> {
+    let measured = outcome.certificate.as_ref().map_or(&outcome.x, |certificate| &certificate.variable_scales);
+    measured.iter().enumerate().map(|(j, &size)| (subject.model().variable_name(j), size.abs())).collect()
+}
+
+fn solved(path: &Path, folder: &Path, seconds: f64) -> Result<(Subject, Outcome), String> {
     let mut subject = Subject::read(path, &[]).map_err(|error| error.to_string())?;
     subject.settings.max_seconds = seconds;
     let choices = choose(&[], None, &subject.settings).map_err(|error| error.to_string())?;

@@ -116,7 +116,7 @@ fn scale(draft: &mut Draft, random: &mut Random, at: usize) {
 }
 
 /// A bound as far away as this says «none» and not how large the variable is.
-const NO_SIZE: f64 = 1e12;
+pub const NO_SIZE: f64 = 1e12;
 
 /// Variables counted from elsewhere, by up to ten times their size. Powers of two: most bounds are moved without rounding. Where neither
 /// start nor bound tells it, the file's own answer does: counted from a million sizes away, a variable has lost the digits it is asked for.
@@ -125,8 +125,7 @@ pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
     for at in (0..draft.variables.len()).filter(|&at| !draft.variables[at].is_slack).collect::<Vec<usize>>() {
         let variable = &draft.variables[at];
         let shift = |i: usize| {
-            let origin = draft.origins.iter().find(|origin| origin.now == variable.element(i));
-            let of_answer = || origin.map_or(1.0, Origin::size_in_draft);
+            let of_answer = || size_of_answer(&draft.origins, variable, i);
             let size = variable.size(i).filter(|&size| size < NO_SIZE).unwrap_or_else(of_answer);
             let by = random.of_magnitude(-1.0, 1.0) * size;
             Step::Affine(1.0, by.signum() * by.abs().log2().round().exp2())
@@ -135,6 +134,11 @@ pub fn translate(draft: &mut Draft, random: &mut Random) -> bool {
         substitute(draft, random, at, &steps);
     }
     !draft.variables.is_empty()
+}
+
+/// How large the file's own answer makes element i, in the draft's units.
+fn size_of_answer(origins: &[Origin], variable: &Variable, i: usize) -> f64 {
+    origins.iter().find(|origin| origin.now == variable.element(i)).map_or(1.0, Origin::size_in_draft)
 }
 
 /// x = 1/y where both bounds are positive.
@@ -214,23 +218,24 @@ fn states_rows(draft: &Draft) -> bool {
     draft.rest.iter().any(|(key, _)| key == "checks")
 }
 
-/// Starts anywhere inside the bounds.
+/// Starts anywhere inside the bounds; where these are open, some sizes away.
 pub fn start_elsewhere(draft: &mut Draft, random: &mut Random) -> bool {
     if states_rows(draft) {
         return false;
     }
     lift_dimensions(draft);
     for variable in &mut draft.variables {
-        let start = (0..variable.lower.len()).map(|i| inside(variable, i, random)).collect();
+        let size = |i: usize| size_of_answer(&draft.origins, variable, i);
+        let start = (0..variable.lower.len()).map(|i| inside(variable, i, size(i), random)).collect();
         variable.start = Some(start);
     }
     !draft.variables.is_empty()
 }
 
-fn inside(variable: &Variable, i: usize, random: &mut Random) -> f64 {
+fn inside(variable: &Variable, i: usize, size: f64, random: &mut Random) -> f64 {
     let (lower, upper) = (variable.lower[i], variable.upper[i]);
     let start = variable.start.as_ref().map_or(0.0, |start| start[i]);
-    let away = random.of_magnitude(-1.0, 1.0) * start.abs().max(1.0);
+    let away = random.of_magnitude(-1.0, 1.0) * start.abs().max(size);
     match (lower.is_finite(), upper.is_finite()) {
         (true, true) if lower > 0.0 && upper > 100.0 * lower => random.between(lower.ln(), upper.ln()).exp().clamp(lower, upper),
         (true, true) => random.between(lower, upper).clamp(lower, upper),
