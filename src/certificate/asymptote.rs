@@ -6,6 +6,7 @@ use super::residuals::is_far_out;
 use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
+use crate::certificate::parameters::feasibility::ROUNDINGS;
 use crate::certificate::parameters::runaway::{BESIDE, NEARER};
 use crate::model::{EvaluationError, Model};
 use crate::recession;
@@ -15,16 +16,25 @@ use crate::recession;
 /// be near: where an exponent's terms cancel one another, the least step has it overflow.
 pub(super) fn is_level_about(point: &Point<'_>) -> bool {
     let (meta, model) = (point.meta(), &point.origin.model);
+    let mut at_start = vec![0.0; point.x.len()];
+    let is_other = model.gradient(&meta.start, &mut at_start).is_ok_and(|value| value != point.objective);
+    if meta.objective_is_linear || !is_other {
+        return false;
+    }
     let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
-    let is_level_at = |step: f64| {
-        let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
-        let value = model.gradient(&x, &mut gradient);
-        value.is_ok_and(|value| value == point.objective) && free.iter().all(|&j| gradient[j] == 0.0)
+    // Slopes up to so much of those at the start are none.
+    let is_level = |step: f64, noise: f64| {
+        [step, -step].into_iter().all(|step| {
+            let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
+            let value = model.gradient(&x, &mut gradient);
+            let is_flat = |&j: &usize| gradient[j].abs() <= noise * at_start[j].abs();
+            value.is_ok_and(|value| value == point.objective) && free.iter().all(is_flat)
+        })
     };
-    let is_other = || model.objective(&meta.start).is_ok_and(|value| value != point.objective);
-    let is_level = |step: f64| is_level_at(step) && is_level_at(-step);
-    let nearer = || is_far_out(point) && NEARER.into_iter().any(is_level);
-    point.sigma == 0.0 && !meta.objective_is_linear && (is_level(BESIDE) || nearer()) && is_other()
+    if !is_far_out(point) {
+        return point.sigma == 0.0 && is_level(BESIDE, 0.0);
+    }
+    is_level(BESIDE, ROUNDINGS) || (point.sigma == 0.0 && NEARER.into_iter().any(|step| is_level(step, 0.0)))
 }
 
 /// The variables that have moved most from where they come from.

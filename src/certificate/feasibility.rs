@@ -5,7 +5,7 @@ use super::known_sizes;
 use super::point::{Origin, Point};
 use super::residuals::{Place, Worst, worse};
 use super::second_order::Kkt;
-use crate::certificate::parameters::feasibility::{BESIDE, LARGEST, PASSES, ROUNDINGS, STEPS, TOLD, WORTH_A_LOOK};
+use crate::certificate::parameters::feasibility::{BESIDE, GONE, LARGEST, PASSES, ROUNDINGS, STEPS, TOLD, WORTH_A_LOOK};
 use crate::model::Model;
 
 /// How well a point meets rows and bounds.
@@ -108,10 +108,21 @@ fn out_of_reach(point: &Point<'_>, tolerance: f64) -> Option<f64> {
     if worst <= tolerance {
         return None;
     }
+    if (0..point.rows.len()).any(|i| is_lost(point, i, &near)) {
+        return Some(worst);
+    }
     match way_back(point, point.x.to_vec(), BESIDE, &|at| self::worst(at, &near) <= tolerance) {
         Some(_) => None,
         None => Some(worst),
     }
+}
+
+/// Whether row i misses a share of its own limit beside a variable that has left all that is known of its size behind: of (x − 1)·y ≥ 1e−6 at
+/// x = 1 and y = 1e18 nothing is left but y.
+fn is_lost(point: &Point<'_>, i: usize, near: &[f64]) -> bool {
+    let (violation, limit) = point.row_excess(i);
+    let has_left = |(j, slope): (usize, f64)| slope != 0.0 && !point.meta().is_fixed(j) && point.x[j].abs() > GONE * near[j];
+    violation > TOLD * limit.abs() && limit != 0.0 && point.row_in_sizes(i).any(has_left)
 }
 
 /// max violation_i / max(|limit|, ‖diag(near)∇c_i‖∞), the slopes being those where no variable is farther away than that, less what

@@ -36,6 +36,8 @@ parameters! {
         ROUNDINGS: f64 = 64.0 * f64::EPSILON;
         /// d_j > FAR·(known size): far away; the row is measured by FAR times the known sizes.
         FAR: f64 = 10.0;
+        /// |x_j| > GONE·(the size it is measured by there) has left what is known of it behind: a row that misses TOLD of its limit there is not met.
+        GONE: f64 = 1e5;
         /// Rounding beyond TOLD·max(|limit|, slope beside known sizes) explains no violation.
         TOLD: f64 = 1e-2;
         /// A point that meets the rows beside one far away lies within BESIDE·d_j.

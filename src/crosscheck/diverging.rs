@@ -3,6 +3,7 @@
 use super::Answer;
 use super::session::{Session, Solver};
 use super::work;
+use crate::certificate::Certificate;
 use crate::model::{Class, Model, WithBounds};
 use crate::recession::{Fall, Ray, Terrain, size};
 
@@ -14,6 +15,8 @@ const DIVERGED: f64 = 100.0;
 const TOO_FAR: f64 = 1e4;
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
+/// Points within SAME·d_j of one another are one.
+const SAME: f64 = 1e-6;
 /// Places on a way are led back to the rows within this, relative to the variables there.
 const BESIDE: f64 = 0.1;
 
@@ -61,19 +64,21 @@ pub(super) fn examine(session: &Session<'_>, solvers: &[Solver<'_>], answers: &[
 
 /// The way the certificate of an answer has found.
 fn judged(answers: &[Answer]) -> Option<Ray> {
-    let ray = |answer: &Answer| {
-        let own = answer.certificate.as_ref().filter(|own| answer.feasible && !own.runaway.is_empty())?;
-        let fall = if own.falls_without_end { Fall::Endless } else { Fall::Settling };
-        let mut direction = vec![0.0; answer.solution.x.len()];
-        own.runaway.iter().for_each(|&j| direction[j] = answer.solution.x[j]);
-        Some(Ray { fall, direction, from: answer.solution.x.clone() })
-    };
-    let rays = || answers.iter().filter_map(ray);
+    let rays = || answers.iter().filter_map(tail);
     rays().find(|ray| ray.fall == Fall::Endless).or_else(|| rays().next())
 }
 
+/// The way outwards a feasible answer's certificate has followed.
+fn tail(answer: &Answer) -> Option<Ray> {
+    let own = answer.certificate.as_ref().filter(|own| answer.feasible && !own.runaway.is_empty())?;
+    let fall = if own.falls_without_end { Fall::Endless } else { Fall::Settling };
+    let mut direction = vec![0.0; answer.solution.x.len()];
+    own.runaway.iter().for_each(|&j| direction[j] = answer.solution.x[j]);
+    Some(Ray { fall, direction, from: answer.solution.x.clone() })
+}
+
 /// Whether what another backend found overrules certified points: it goes on falling below them, or, at the same value, certified
-/// points have gone as far in the variables that diverge.
+/// points have gone as far in the variables that diverge: on the way its certificate has followed they are in the same tail.
 pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer) -> Option<Ray> {
     let certificate = best.certificate.as_ref()?;
     let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
@@ -84,6 +89,9 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
             return None;
         }
+        if is_farther_out(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
+            return tail(answer);
+        }
         let straight = || terrain.straight(x, &difference(x, start)).or_else(|| terrain.power_curve(x));
         if own.objective < certificate.objective - level {
             return straight().or_else(|| terrain.towards_edge(x));
@@ -93,11 +101,26 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
 }
 
-/// Whether variables that have run off at `far` have done so at x.
-pub(super) fn runs_with(session: &Session<'_>, x: &[f64], far: &[f64]) -> bool {
+/// Whether a point has gone on the way on which the variables of a judged one run away, and at least as far.
+fn is_farther_out(start: &[f64], own: &Certificate, x: &[f64], point: &[f64]) -> bool {
+    let goes_on = |&j: &usize| {
+        let (gone, way) = (point[j] - start[j], x[j] - start[j]);
+        way != 0.0 && gone * way.signum() >= way.abs()
+    };
+    !own.runaway.is_empty() && own.runaway.iter().all(goes_on)
+}
+
+/// Whether a judged point is where variables have run off: beside `far`, or as far out in a variable that is far there.
+pub(super) fn is_in_tail(session: &Session<'_>, x: &[f64], (own, far): (&Certificate, &[f64])) -> bool {
     let start = &session.task.model.meta().start;
     let has_run_off = |x: f64, start: f64| (x - start).abs() > TOO_FAR * size(start);
-    start.iter().zip(x.iter().zip(far)).any(|(&start, (&x, &far))| has_run_off(x, start) && has_run_off(far, start))
+    let runs = start.iter().zip(x.iter().zip(far)).any(|(&start, (&x, &far))| has_run_off(x, start) && has_run_off(far, start));
+    runs || is_beside(own, x, far)
+}
+
+/// Whether two points are one but for what is accepted of slopes.
+fn is_beside(own: &Certificate, x: &[f64], other: &[f64]) -> bool {
+    x.iter().zip(other).zip(&own.variable_scales).all(|((x, other), d)| (x - other).abs() <= SAME * d)
 }
 
 /// Whether a point lies so far from the start that rounding may hide a violation of the rows. States follow from the design, and may start next to

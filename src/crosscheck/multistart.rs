@@ -29,14 +29,14 @@ pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize]
 }
 
 /// A certified answer not above `value`, beyond what counts as agreement, from the origin, from dips beside the start that leads to `far`, or
-/// from one of a few seeded starts, where one is found soon: what runs off from one start may be attained from another. Not where the same
-/// variables have run off.
+/// from one of a few seeded starts, where one is found soon: what runs off from one start may be attained from another. Not in the
+/// same tail.
 pub(super) fn attained(ledger: &Ledger<'_, '_>, (value, far): (f64, &[f64])) -> Option<Found> {
     let session = ledger.session;
     let is_attained = |answer: &Answer| {
         let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
-        answer.certificate.as_ref().is_some_and(|own| own.certified && reaches(own))
-            && !diverging::runs_with(session, &answer.solution.x, far)
+        let is_elsewhere = |own: &Certificate| !diverging::is_in_tail(session, &answer.solution.x, (own, far));
+        answer.certificate.as_ref().is_some_and(|own| own.certified && reaches(own) && is_elsewhere(own))
     };
     let allowed = work::further_run(0.0) / FEW as f64;
     let meta = session.task.model.meta();

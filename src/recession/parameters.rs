@@ -62,6 +62,8 @@ parameters! {
         DECADES: i32 = 30;
         /// Decades that must go well before the model may end in an overflow, or be lost in rounding.
         ENOUGH: usize = 7;
+        /// Rounding > LOST·|limit| leaves nothing of a row's limit.
+        LOST: f64 = 1e-2;
         /// Places on the way back to where the variables come from.
         BACK: i32 = 12;
         /// Decades of a way towards an edge.

@@ -2,7 +2,7 @@
 
 use super::height::{Fall, Height, is_endless, last_digits};
 use super::parameters::height::ROUNDINGS;
-use super::parameters::ways::{BACK, BEYOND, BISECTIONS, CHANGED, DECADES, EDGE_DECADES, ENOUGH, FAR, NOISE, TRIED};
+use super::parameters::ways::{BACK, BEYOND, BISECTIONS, CHANGED, DECADES, EDGE_DECADES, ENOUGH, FAR, LOST, NOISE, TRIED};
 use crate::model::{Meta, Model};
 
 /// A feasible way along which the objective never stops falling.
@@ -145,6 +145,21 @@ impl Terrain<'_> {
         (falls || rises_back()).then_some(Fall::Settling)
     }
 
+    /// Whether x is so far out that the rounding of a row's terms is more than a share of the limit it is held to: numbers end.
+    fn has_lost_limits(&self, x: &[f64]) -> bool {
+        let meta = self.meta();
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        if self.model.jacobian(x, &mut jacobian).is_err() {
+            return true;
+        }
+        let terms =
+            |i: usize| meta.jacobian.range(i).map(|at| (jacobian[at] * x[meta.jacobian.columns[at] as usize]).abs()).sum::<f64>();
+        let limits = |i: usize| [meta.row_lower[i], meta.row_upper[i]].map(f64::abs);
+        let is_lost =
+            |i: usize| limits(i).iter().any(|&limit| limit > 0.0 && limit.is_finite() && ROUNDINGS * terms(i) > LOST * limit);
+        (0..meta.rows()).any(is_lost)
+    }
+
     fn at(&self, x: &[f64]) -> Option<Height> {
         match self.place(x) {
             Place::At(height) => Some(height),
@@ -164,7 +179,9 @@ impl Terrain<'_> {
         if !is_inside {
             return Place::Barred;
         }
-        let Some(x) = (self.nearest)(x) else { return Place::Barred };
+        let Some(x) = (self.nearest)(x) else {
+            return if self.has_lost_limits(x) { Place::Void } else { Place::Barred };
+        };
         let Some(here) = value(&x) else { return Place::Void };
         let noise = last_digits(self.model.meta(), &x, |there| Some((value(there)? - here).abs()));
         Place::At(Height { value: here, noise: noise + ROUNDINGS * here.abs() })
