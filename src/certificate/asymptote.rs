@@ -2,7 +2,7 @@
 
 use super::higher_order::Trial;
 use super::point::Point;
-use super::residuals::is_far_out;
+use super::residuals::{is_far_out, last_digits, last_digits_at};
 use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
@@ -23,18 +23,21 @@ pub(super) fn is_level_about(point: &Point<'_>) -> bool {
     }
     let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
     // Slopes up to so much of those at the start are none.
-    let is_level = |step: f64, noise: f64| {
+    let is_level = |step: f64, noise: f64, rounding: &dyn Fn(&[f64], f64) -> f64| {
         [step, -step].into_iter().all(|step| {
             let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
-            let value = model.gradient(&x, &mut gradient);
+            let Ok(value) = model.gradient(&x, &mut gradient) else { return false };
             let is_flat = |&j: &usize| gradient[j].abs() <= noise * at_start[j].abs();
-            value.is_ok_and(|value| value == point.objective) && free.iter().all(is_flat)
+            free.iter().all(is_flat) && (value - point.objective).abs() <= rounding(&x, value)
         })
     };
+    let is_constant = |step: f64| point.sigma == 0.0 && is_level(step, 0.0, &|_, _| 0.0);
     if !is_far_out(point) {
-        return point.sigma == 0.0 && is_level(BESIDE, 0.0);
+        return is_constant(BESIDE);
     }
-    is_level(BESIDE, ROUNDINGS) || (point.sigma == 0.0 && NEARER.into_iter().any(|step| is_level(step, 0.0)))
+    // √(x² + 1) − x is nothing but the last digit of x there.
+    let digits = |x: &[f64], value: f64| last_digits(point).max(last_digits_at(point, x, value));
+    is_level(BESIDE, ROUNDINGS, &digits) || NEARER.into_iter().any(is_constant)
 }
 
 /// The variables that have moved most from where they come from.

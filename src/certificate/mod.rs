@@ -13,6 +13,7 @@ mod higher_order;
 mod idle_rows;
 mod implied_box;
 mod known_sizes;
+mod linear_rows;
 mod lower_bound;
 mod messages;
 mod multipliers;

@@ -4,7 +4,7 @@
 use std::cell::LazyCell;
 use std::collections::HashMap;
 
-use super::propagation::Line;
+use super::linear_rows::Line;
 
 /// A row that contradicts one it is an exact multiple of, by more than `ease` of the magnitudes of their limits and of their terms at variables
 /// of these sizes.

@@ -2,24 +2,18 @@
 //! tightening). A contradiction found so is a theorem, wherever solvers end.
 
 use super::known_sizes::known_sizes;
+use super::linear_rows::{self, Line};
 use super::parallel_rows;
 use super::point::Origin;
 use super::row_range::{End, range};
 use crate::certificate::parameters::infeasibility::{EASE, SWEEPS};
 use crate::model::Model;
 
-/// lower ≤ Σ a_j·x_j ≤ upper
-pub(super) struct Line {
-    pub(super) entries: Vec<(usize, f64)>,
-    pub(super) lower: f64,
-    pub(super) upper: f64,
-}
-
 /// A row that no point of the box meets once the other linear rows have tightened it, or that contradicts one it is a multiple of, by more than
 /// the tolerance; `None` where that is not found.
 pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
     let meta = model.meta();
-    let (lines, jacobian) = lines(model)?;
+    let (lines, jacobian) = linear_rows::of(model)?;
     let sizes = || known_sizes(&Origin::new(model), &meta.start, &jacobian);
     if let Some(row) = parallel_rows::contradiction(&lines, sizes, EASE * tolerance) {
         return Some(row);
@@ -42,29 +36,6 @@ pub fn impossible_row(model: &dyn Model, tolerance: f64) -> Option<usize> {
         }
     }
     None
-}
-
-/// The linear rows, and the Jacobian they are read from; a row's constant is taken off its limits. `None` where the model has no value at its
-/// start.
-fn lines(model: &dyn Model) -> Option<(Vec<Option<Line>>, Vec<f64>)> {
-    let meta = model.meta();
-    if !(0..meta.rows()).any(|i| meta.is_row_linear(i)) {
-        return None;
-    }
-    let x = &meta.start;
-    let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
-    model.constraints(x, &mut rows).ok()?;
-    model.jacobian(x, &mut jacobian).ok()?;
-    let line = |i: usize| {
-        let entries: Vec<(usize, f64)> =
-            meta.jacobian.range(i).map(|at| (meta.jacobian.columns[at] as usize, jacobian[at])).filter(|e| e.1 != 0.0).collect();
-        let terms: Vec<f64> = entries.iter().map(|&(j, a)| a * x[j]).collect();
-        let magnitude = terms.iter().fold(rows[i].abs(), |most: f64, term| most + term.abs());
-        let (constant, error) = (rows[i] - terms.iter().sum::<f64>(), (terms.len() + 4) as f64 * f64::EPSILON * magnitude);
-        Line { entries, lower: meta.row_lower[i] - constant - error, upper: meta.row_upper[i] - constant + error }
-    };
-    let lines = (0..meta.rows()).map(|i| meta.is_row_linear(i).then(|| line(i))).collect();
-    Some((lines, jacobian))
 }
 
 enum Tightened {

@@ -35,7 +35,10 @@ pub(super) fn attained(ledger: &Ledger<'_, '_>, (value, far): (f64, &[f64])) -> 
     let session = ledger.session;
     let is_attained = |answer: &Answer| {
         let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
-        let is_elsewhere = |own: &Certificate| !diverging::is_in_tail(session, &answer.solution.x, (own, far));
+        // What is flat at the same value is as likely another place in the tail.
+        let is_elsewhere = |own: &Certificate| {
+            !own.minimiser_may_not_be_unique && !diverging::is_in_tail(session, &answer.solution.x, (own, far))
+        };
         answer.certificate.as_ref().is_some_and(|own| own.certified && reaches(own) && is_elsewhere(own))
     };
     let allowed = work::further_run(0.0) / FEW as f64;

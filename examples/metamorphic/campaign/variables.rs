@@ -181,6 +181,9 @@ pub fn add_fixed(draft: &mut Draft, random: &mut Random) -> bool {
 
 /// Variables whose bounds are equal, as factors that are exactly 1.
 pub fn multiply_by_fixed(draft: &mut Draft, random: &mut Random) -> bool {
+    if draft.variables.iter().any(leaves_numbers) {
+        return false;
+    }
     for _ in 0..=random.below(3) {
         let value = random.of_magnitude(-3.0, 3.0).abs();
         let one = format!("{}/{}", insert_fixed(draft, random, value), number(value));
@@ -191,6 +194,11 @@ pub fn multiply_by_fixed(draft: &mut Draft, random: &mut Random) -> bool {
         }
     }
     true
+}
+
+/// Whether a variable goes so far that its products with other numbers are none.
+fn leaves_numbers(variable: &Variable) -> bool {
+    variable.lower.iter().chain(&variable.upper).any(|bound| bound.is_finite() && bound.abs() > 1e290)
 }
 
 fn insert_fixed(draft: &mut Draft, random: &mut Random, value: f64) -> String {
