@@ -2,7 +2,7 @@
 
 use super::higher_order::Trial;
 use super::point::Point;
-use super::residuals::{is_far_out, last_digits, last_digits_at};
+use super::residuals::is_far_out;
 use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
@@ -23,21 +23,22 @@ pub(super) fn is_level_about(point: &Point<'_>) -> bool {
     }
     let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
     // Slopes up to so much of those at the start are none.
-    let is_level = |step: f64, noise: f64, rounding: &dyn Fn(&[f64], f64) -> f64| {
+    let is_level = |step: f64, noise: f64| {
         [step, -step].into_iter().all(|step| {
             let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
             let Ok(value) = model.gradient(&x, &mut gradient) else { return false };
             let is_flat = |&j: &usize| gradient[j].abs() <= noise * at_start[j].abs();
-            free.iter().all(is_flat) && (value - point.objective).abs() <= rounding(&x, value)
+            // … and what these slopes make of the variables' last digits is no change.
+            let digits: f64 = free.iter().map(|&j| noise * (at_start[j] * x[j]).abs()).sum();
+            free.iter().all(is_flat) && (value - point.objective).abs() <= digits
         })
     };
-    let is_constant = |step: f64| point.sigma == 0.0 && is_level(step, 0.0, &|_, _| 0.0);
+    let is_constant = |step: f64| point.sigma == 0.0 && is_level(step, 0.0);
     if !is_far_out(point) {
         return is_constant(BESIDE);
     }
     // √(x² + 1) − x is nothing but the last digit of x there.
-    let digits = |x: &[f64], value: f64| last_digits(point).max(last_digits_at(point, x, value));
-    is_level(BESIDE, ROUNDINGS, &digits) || NEARER.into_iter().any(is_constant)
+    is_level(BESIDE, ROUNDINGS) || NEARER.into_iter().any(is_constant)
 }
 
 /// The variables that have moved most from where they come from.

@@ -69,19 +69,14 @@ pub(super) fn objective_lost(point: &Point<'_>) -> f64 {
 /// What the last digits of x make of the objective; those of fixed variables are given. Where it has no value there, a variable that is far from
 /// where it comes from has left it none (exponents that cancel one another overflow); elsewhere an edge of the domain is as near, and says nothing.
 pub(super) fn last_digits(point: &Point<'_>) -> f64 {
-    last_digits_at(point, point.x, point.objective)
-}
-
-/// The same at another place x, where the objective has this value.
-pub(super) fn last_digits_at(point: &Point<'_>, x: &[f64], value: f64) -> f64 {
     let nothing = if is_far_out(point) { f64::INFINITY } else { 0.0 };
     let change = |digits: f64| {
         let moved = |(j, x): (usize, &f64)| match point.meta().is_fixed(j) {
             true => *x,
             false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
         };
-        let x: Vec<f64> = x.iter().enumerate().map(moved).collect();
-        point.origin.model.objective(&x).map_or(nothing, |there| (there - value).abs())
+        let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
+        point.origin.model.objective(&x).map_or(nothing, |there| (there - point.objective).abs())
     };
     DIGITS.into_iter().map(change).fold(0.0, f64::max)
 }
