@@ -4,6 +4,7 @@
 
 mod asymptote;
 mod candidates;
+mod elsewhere;
 mod far_slopes;
 mod farkas;
 mod feasibility;
@@ -32,12 +33,12 @@ mod tests;
 mod types;
 
 use crate::certificate::parameters::sizes::PROPORTION;
+use elsewhere::Elsewhere;
 use feasibility::worst_violation;
 use first_order::is_stationary;
 use std::time::Instant;
 
 use multipliers::Multipliers;
-use newton::Newton;
 use point::{Origin, Point};
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, slope_far_out};
 use runaway::Runaway;
@@ -227,49 +228,32 @@ impl<'a> Certifier<'a> {
         // Convex problems have no inflections, and need no second order: the first proves.
         let (undecided, descent) = match escape.is_some() || self.class.is_global() {
             true => (undecided.filter(|_| !self.class.is_global()), None),
-            false => (
-                undecided,
-                higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent)).unwrap_or_default(),
-            ),
+            false => {
+                let found = higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent));
+                (undecided, found.unwrap_or_default())
+            }
         };
         let descends_at_higher_order = descent.is_some();
-        let mut runaway = match has_negative_curvature || descends_at_higher_order {
+        let runaway = match has_negative_curvature || descends_at_higher_order {
             true => Runaway::default(),
             false => runaway::find(point, &active, &hessian, (self.class, dependent), &self.tolerances),
         };
         let may_deceive = !has_negative_curvature && !descends_at_higher_order && runaway.variables.is_empty();
-        let elsewhere = if may_deceive { self.led_on(point, &active, &mut runaway) } else { None };
-        certificate.led_on = elsewhere.is_some();
-        let far = match self.class.is_global() && may_deceive && !certificate.led_on {
-            true => far_slopes::way_down(point, multipliers, &self.tolerances),
-            false => None,
-        };
-        certificate.falls_far_away = far.is_some();
+        let look = || elsewhere::look(point, &active, self.class, &self.tolerances);
+        let elsewhere = if may_deceive { look() } else { Elsewhere::Nowhere };
+        (certificate.led_on, certificate.falls_far_away) =
+            (matches!(elsewhere, Elsewhere::LedOn(_)), matches!(elsewhere, Elsewhere::FarAway(_)));
         certificate.cut_short = point.is_cut_short();
-        let goes_on = !runaway.variables.is_empty() || elsewhere.is_some() || far.is_some() || certificate.cut_short;
+        let goes_on = !runaway.variables.is_empty() || elsewhere != Elsewhere::Nowhere || certificate.cut_short;
+        let runaway = elsewhere.runaway().unwrap_or(runaway);
         certificate.certified = !has_negative_curvature && !descends_at_higher_order && undecided.is_none() && !goes_on;
-        certificate.escape = escape.or(descent).or(elsewhere).or(far);
+        certificate.escape = escape.or(descent).or(elsewhere.way());
         (certificate.negative_curvature, certificate.descends_at_higher_order) =
             (has_negative_curvature, descends_at_higher_order);
         (certificate.falls_without_end, certificate.runaway) = (runaway.is_endless, runaway.variables);
         certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
-    }
-
-    /// Where Newton's steps lead, if they do not stay; those that fall without end are noted as a way that runs away.
-    fn led_on(&self, point: &Point<'_>, active: &Active<'_>, runaway: &mut Runaway) -> Option<Vec<f64>> {
-        if self.class == Class::Linear || point.is_over() {
-            return None;
-        }
-        match newton::steps(point, active, self.tolerances.constraint) {
-            Newton::Stays => None,
-            Newton::LeadsTo(direction) => Some(direction),
-            Newton::Falls(variables) => {
-                *runaway = Runaway::settling(variables);
-                None
-            }
-        }
     }
 
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.

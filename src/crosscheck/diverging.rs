@@ -89,7 +89,7 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
             return None;
         }
-        if is_farther_out(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
+        if is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
             return tail(answer);
         }
         let straight = || terrain.straight(x, &difference(x, start)).or_else(|| terrain.power_curve(x));
@@ -101,11 +101,11 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
 }
 
-/// Whether a point has gone on the way on which the variables of a judged one run away, and at least as far.
-fn is_farther_out(start: &[f64], own: &Certificate, x: &[f64], point: &[f64]) -> bool {
+/// Whether a point has gone on the way on which the variables of a judged one run away: all of them as far, or far from where they come from.
+fn is_on_the_way(start: &[f64], own: &Certificate, x: &[f64], point: &[f64]) -> bool {
     let goes_on = |&j: &usize| {
         let (gone, way) = (point[j] - start[j], x[j] - start[j]);
-        way != 0.0 && gone * way.signum() >= way.abs()
+        way != 0.0 && gone * way.signum() >= way.abs().min(DIVERGED * size(start[j]))
     };
     !own.runaway.is_empty() && own.runaway.iter().all(goes_on)
 }

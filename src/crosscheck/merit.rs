@@ -12,10 +12,9 @@ const ROUNDINGS: f64 = 64.0;
 /// σ beside an infinite slope says nothing of the objective's size: so many times the values at the point and the start at most.
 const STEEPEST: f64 = 1e3;
 
-/// Whether what a judged point leaves of slopes and gaps, (residual)·σ, is worth more than the agreement of its own objective.
+/// Whether the gap a judged point leaves to its limits, Σ|multiplier|·distance, is worth more than the agreement of its own objective.
 pub(super) fn is_coarse(certificate: &Certificate) -> bool {
-    let worth = certificate.dual_infeasibility.max(certificate.complementarity) * certificate.sigma;
-    worth > AGREEMENT * certificate.objective.abs()
+    certificate.complementarity * certificate.sigma > AGREEMENT * certificate.objective.abs()
 }
 
 /// Below which objectives do not differ from that of a judged point: the agreement, or the rounding of the objective's terms.

@@ -95,8 +95,8 @@ impl<'a> Session<'a> {
         self.judged(solver, solution)
     }
 
-    /// Whether a solver may stop at x: it passes with something to spare, and what that leaves of slopes and gaps is nothing beside the
-    /// objective, however steep that is elsewhere.
+    /// Whether a solver may stop at x: it passes with something to spare, and the gap that leaves is nothing beside the objective, however
+    /// steep that is elsewhere.
     fn is_enough(&self, x: &[f64]) -> bool {
         self.strict.passed(x).is_some_and(|certificate| !merit::is_coarse(&certificate))
     }

@@ -201,6 +201,18 @@ fn rectangles_are_geometric_programs_and_h_beams_with_stiffness_are_not() {
 }
 
 #[test]
+fn fixed_variables_are_numbers_in_the_terms_of_a_row() {
+    let row = |name: &str, require: &str| format!("[[constraints]]\nname = \"{name}\"\nrequire = \"{require}\"\n");
+    let rows =
+        row("a", "k*(x^2 - 4) >= 0") + &row("b", "(outer - k)/k <= 5") + &row("c", "k*x + k^2 >= 1") + &row("d", "exp(k*x) <= 9");
+    let text = format!(
+        "minimize = \"x\"\n[definitions]\nouter = \"2*k*(x^2 - 4)\"\n[variables]\n\
+         x = {{ lower = 0, start = 1, upper = 9 }}\nk = {{ lower = 3, start = 3, upper = 3 }}\n{rows}"
+    );
+    assert_eq!(model(&text).meta().row_constants, [-12.0, -9.0, 9.0, 0.0]);
+}
+
+#[test]
 fn parts_that_pass_pass_together() {
     // Thirty parts, each with a gap just within what is accepted; their sum is beyond.
     let model = model("minimize = \"sum(x)\"\n[variables]\nx = {size=30,lower=1,start=1.5}\n");

@@ -70,29 +70,3 @@ impl<'a> FixedTerms<'a> {
         lowering.graph.evaluate(root, &inputs, &lowering.numbers)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::model::{Model, assemble};
-
-    fn constants(rows: &str) -> Vec<f64> {
-        let text = format!(
-            "minimize = \"x\"\n[definitions]\nouter = \"2*k*(x^2 - 4)\"\n[variables]\n\
-             x = {{ lower = 0, start = 1, upper = 9 }}\nk = {{ lower = 3, start = 3, upper = 3 }}\n{rows}"
-        );
-        let model = assemble(&crate::input::read_text("p.toml", &text).unwrap().problem.into()).unwrap();
-        let mut rows = vec![0.0; model.meta().rows()];
-        model.constraints(&model.meta().start, &mut rows).unwrap();
-        model.meta().row_constants.clone()
-    }
-
-    #[test]
-    fn fixed_variables_are_numbers_in_the_terms_of_a_row() {
-        let row = |name: &str, require: &str| format!("[[constraints]]\nname = \"{name}\"\nrequire = \"{require}\"\n");
-        let rows = row("a", "k*(x^2 - 4) >= 0")
-            + &row("b", "(outer - k)/k <= 5")
-            + &row("c", "k*x + k^2 >= 1")
-            + &row("d", "exp(k*x) <= 9");
-        assert_eq!(constants(&rows), [-12.0, -9.0, 9.0, 0.0]);
-    }
-}
