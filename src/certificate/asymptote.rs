@@ -15,10 +15,13 @@ use crate::recession;
 /// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it. Far out «about» may
 /// be near: where an exponent's terms cancel one another, the least step has it overflow.
 pub(super) fn is_level_about(point: &Point<'_>) -> bool {
-    let (meta, model) = (point.meta(), &point.origin.model);
+    let (meta, model, is_far) = (point.meta(), &point.origin.model, is_far_out(point));
+    if meta.objective_is_linear || (point.sigma != 0.0 && !is_far) {
+        return false;
+    }
     let mut at_start = vec![0.0; point.x.len()];
     let is_other = model.gradient(&meta.start, &mut at_start).is_ok_and(|value| value != point.objective);
-    if meta.objective_is_linear || !is_other {
+    if !is_other {
         return false;
     }
     let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
@@ -34,7 +37,7 @@ pub(super) fn is_level_about(point: &Point<'_>) -> bool {
         })
     };
     let is_constant = |step: f64| point.sigma == 0.0 && is_level(step, 0.0);
-    if !is_far_out(point) {
+    if !is_far {
         return is_constant(BESIDE);
     }
     // √(x² + 1) − x is nothing but the last digit of x there.

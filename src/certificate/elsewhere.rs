@@ -9,9 +9,8 @@ use super::types::Tolerances;
 use crate::model::Class;
 
 /// Where the slopes left at a point lead.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) enum Elsewhere {
-    #[default]
     Nowhere,
     /// Newton's steps lead on, ten times the way there.
     LedOn(Vec<f64>),

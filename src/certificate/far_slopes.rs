@@ -56,8 +56,7 @@ fn downwards(point: &Point<'_>, multipliers: &Multipliers) -> Option<Way> {
 /// Whether x is feasible, and lower once what it misses its limits by is paid for.
 fn is_lower(point: &Point<'_>, multipliers: &Multipliers, x: &[f64], accepted: f64, tolerance: f64) -> bool {
     let Ok(there) = Point::new(point.origin, x) else { return false };
-    let miss = |i: usize| (point.meta().row_lower[i] - there.rows[i]).max(there.rows[i] - point.meta().row_upper[i]).max(0.0);
-    let price: f64 = multipliers.rows.iter().enumerate().map(|(i, y)| y.abs() * miss(i)).sum();
+    let price: f64 = multipliers.rows.iter().enumerate().map(|(i, y)| y.abs() * there.row_excess(i).0.max(0.0)).sum();
     there.objective + price < point.objective - accepted && worst_violation(&there).1 <= tolerance
 }
 

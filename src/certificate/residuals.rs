@@ -8,7 +8,6 @@ use crate::certificate::parameters::newton::LOWER;
 use crate::certificate::parameters::rounding::DIGITS;
 use crate::certificate::parameters::runaway::FAR;
 use crate::linear_algebra::Partition;
-use crate::math::split_mix::SplitMix;
 use crate::model::{EvaluationError, Model};
 use crate::recession;
 
@@ -71,11 +70,7 @@ pub(super) fn objective_lost(point: &Point<'_>) -> f64 {
 pub(super) fn last_digits(point: &Point<'_>) -> f64 {
     let nothing = if is_far_out(point) { f64::INFINITY } else { 0.0 };
     let change = |digits: f64| {
-        let moved = |(j, x): (usize, &f64)| match point.meta().is_fixed(j) {
-            true => *x,
-            false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
-        };
-        let x: Vec<f64> = point.x.iter().enumerate().map(moved).collect();
+        let x = recession::with_digits_moved(point.meta(), point.x, digits);
         point.origin.model.objective(&x).map_or(nothing, |there| (there - point.objective).abs())
     };
     DIGITS.into_iter().map(change).fold(0.0, f64::max)
@@ -83,8 +78,7 @@ pub(super) fn last_digits(point: &Point<'_>) -> f64 {
 
 /// Whether a variable is thousands of its sizes from where it comes from.
 pub(super) fn is_far_out(point: &Point<'_>) -> bool {
-    let far = |(x, start): (&f64, &f64)| (x - start).abs() > FAR * recession::size(*start);
-    point.x.iter().zip(&point.meta().start).any(far)
+    point.x.iter().zip(&point.meta().start).any(|(&x, &start)| recession::is_farther(x, start, FAR))
 }
 
 /// The slope beside the variables' known sizes, where only curvature makes it a small one and the last digits of x make more of the

@@ -86,7 +86,7 @@ fn one_released(
 /// Open variables that are far from where they come from.
 fn far_out<'a>(point: &'a Point<'_>, free: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
     let meta = point.meta();
-    let is_far = |&j: &usize| (point.x[j] - meta.start[j]).abs() > FAR * recession::size(meta.start[j]);
+    let is_far = |&j: &usize| recession::is_farther(point.x[j], meta.start[j], FAR);
     free.iter().copied().filter(|&j| is_open(meta, j)).filter(is_far)
 }
 

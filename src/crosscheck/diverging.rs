@@ -5,7 +5,7 @@ use super::session::{Session, Solver};
 use super::work;
 use crate::certificate::Certificate;
 use crate::model::{Class, Model, WithBounds};
-use crate::recession::{Fall, Ray, Terrain, size};
+use crate::recession::{Fall, Ray, Terrain, is_farther, size};
 
 /// Half widths of the artificial boxes, in units of the variables' own sizes.
 const BOXES: [f64; 2] = [1e3, 1e5];
@@ -83,7 +83,7 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
     let certificate = best.certificate.as_ref()?;
     let level = AGREEMENT * certificate.sigma.max(f64::EPSILON * certificate.objective.abs());
     let start = &session.task.model.meta().start;
-    let is_far = |&j: &usize| (best.solution.x[j] - start[j]).abs() > DIVERGED * size(start[j]);
+    let is_far = |&j: &usize| is_farther(best.solution.x[j], start[j], DIVERGED);
     let overrules = |terrain: &Terrain<'_>, answer: &Answer| {
         let (x, own) = (&answer.solution.x, answer.certificate.as_ref()?);
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
@@ -113,8 +113,9 @@ fn is_on_the_way(start: &[f64], own: &Certificate, x: &[f64], point: &[f64]) -> 
 /// Whether a judged point is where variables have run off: beside `far`, or as far out in a variable that is far there.
 pub(super) fn is_in_tail(session: &Session<'_>, x: &[f64], (own, far): (&Certificate, &[f64])) -> bool {
     let start = &session.task.model.meta().start;
-    let has_run_off = |x: f64, start: f64| (x - start).abs() > TOO_FAR * size(start);
-    let runs = start.iter().zip(x.iter().zip(far)).any(|(&start, (&x, &far))| has_run_off(x, start) && has_run_off(far, start));
+    let has_run_off =
+        |(&start, (&x, &far)): (&f64, (&f64, &f64))| is_farther(x, start, TOO_FAR) && is_farther(far, start, TOO_FAR);
+    let runs = start.iter().zip(x.iter().zip(far)).any(has_run_off);
     runs || is_beside(own, x, far)
 }
 
@@ -128,7 +129,7 @@ fn is_beside(own: &Certificate, x: &[f64], other: &[f64]) -> bool {
 pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let meta = session.task.model.meta();
     let design = meta.states.map_or(x.len(), |states| states.first_variable);
-    x.iter().zip(&meta.start).take(design).any(|(x, &start)| (x - start).abs() > TOO_FAR * size(start))
+    x.iter().zip(&meta.start).take(design).any(|(&x, &start)| is_farther(x, start, TOO_FAR))
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.

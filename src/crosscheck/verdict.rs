@@ -14,9 +14,10 @@ const APART: f64 = 1e-3;
 /// The best answer's place: of certified ones that agree the most exact, not the one that used up what its rows tolerate.
 pub(super) fn best(session: &Session<'_>, answers: &[Answer]) -> Option<usize> {
     let best = (0..answers.len()).reduce(|best, k| if session.is_better(&answers[k], &answers[best]) { k } else { best })?;
-    let Some(lowest) = answers[best].certificate.as_ref().filter(|own| own.certified) else { return Some(best) };
+    let certified: Vec<usize> = (0..answers.len()).filter(|&k| answers[k].is_certified()).collect();
+    let Some(lowest) = answers[best].certificate.as_ref().filter(|_| certified.len() > 1) else { return Some(best) };
     let highest = lowest.objective + merit::level(session, &answers[best].solution.x, lowest);
-    let agree = (0..answers.len()).filter(|&k| answers[k].is_certified() && answers[k].objective <= Some(highest));
+    let agree = certified.into_iter().filter(|&k| answers[k].objective <= Some(highest));
     agree.min_by(|&a, &b| merit::inexactness(session, &answers[a]).total_cmp(&merit::inexactness(session, &answers[b])))
 }
 

@@ -29,15 +29,18 @@ impl Height {
 /// What the last digits of x make of a function: `change(x')` is by how much its value at x' differs from that at x. Those of fixed variables
 /// are given.
 pub(super) fn last_digits(meta: &Meta, x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
-    let noise_of = |digits: f64| {
-        // Each by its own: variables moved alike would keep their differences.
-        let moved = |(j, x): (usize, &f64)| match meta.is_fixed(j) {
-            true => *x,
-            false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
-        };
-        change(&x.iter().enumerate().map(moved).collect::<Vec<f64>>()).unwrap_or(0.0)
-    };
+    let noise_of = |digits: f64| change(&with_digits_moved(meta, x, digits)).unwrap_or(0.0);
     DIGITS.into_iter().map(noise_of).fold(0.0, f64::max)
+}
+
+/// x with each variable moved by up to so many of its last digits, fixed ones left; each by its own: moved alike they would keep their
+/// differences.
+pub fn with_digits_moved(meta: &Meta, x: &[f64], digits: f64) -> Vec<f64> {
+    let moved = |(j, x): (usize, &f64)| match meta.is_fixed(j) {
+        true => *x,
+        false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
+    };
+    x.iter().enumerate().map(moved).collect()
 }
 
 /// Whether heights at places each some eight or ten times as far as the one before fall without end: the last falls are beyond

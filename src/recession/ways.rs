@@ -203,6 +203,11 @@ impl Terrain<'_> {
     }
 }
 
+/// Whether a variable has gone more than so many of its sizes from where it starts.
+pub fn is_farther(x: f64, start: f64, sizes: f64) -> bool {
+    (x - start).abs() > sizes * size(start)
+}
+
 /// The size of a variable that starts here.
 pub fn size(start: f64) -> f64 {
     if start == 0.0 { 1.0 } else { start.abs() }

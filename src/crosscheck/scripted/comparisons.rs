@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn of_minima_that_agree_the_most_exact_is_shown() {
-    // x ≥ 1 violated by 5e-9, which is tolerated, is lower, and no better for it.
+    // x ≥ 1 violated by 4e-9, which is tolerated, is lower, and no better for it.
     let model = Sample::new(&[2.0], |x| x[0]).row(1.0, INF, |x| x[0] * x[0]);
     let found = outcome(&model, &[&Script::new("one", &[&[1.0 - 2e-9]]), &Script::new("two", &[&[1.0]])]);
     assert_eq!((found.status, found.best, found.objective), (Status::Certified, Some(1), Some(1.0)));
