@@ -90,6 +90,21 @@ impl Pattern {
         (0..self.rows()).flat_map(move |row| self.row(row).iter().map(move |&column| (row, column as usize)))
     }
 
+    /// Some rows, their columns renumbered by `place` (which keeps their order) or left out, and which of all positions are kept.
+    pub fn selected(&self, rows: &[u32], place: impl Fn(u32) -> Option<u32>) -> (Pattern, Vec<usize>) {
+        let (mut own, mut kept) = (Pattern::default(), Vec::new());
+        for &row in rows {
+            for at in self.range(row as usize) {
+                if let Some(column) = place(self.columns[at]) {
+                    own.columns.push(column);
+                    kept.push(at);
+                }
+            }
+            own.offsets.push(own.columns.len());
+        }
+        (own, kept)
+    }
+
     /// y = A·x for the values of A along this pattern.
     pub fn multiply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for (row, y) in y.iter_mut().enumerate() {

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::around::{Around, around};
 use super::auxiliaries;
 use super::components::{ComponentView, Components, Members};
 use super::element_model::ElementModel;
@@ -128,6 +129,10 @@ impl Model for RibModel {
         // In the inner problem of a structure inputs stand behind the auxiliaries.
         let end = if self.problem.inputs_are_forces { self.problem.first_input as usize } else { x.len() };
         auxiliaries::complete(self, &self.problem.auxiliaries, first, end, x);
+    }
+
+    fn around(&self, variables: &[u32]) -> Option<Around<'_>> {
+        Some(around(&self.inner, variables))
     }
 
     fn components(&self) -> Option<Box<dyn Components + '_>> {

@@ -5,6 +5,7 @@
 
 use crate::math::within;
 mod affine;
+mod around;
 mod assemble;
 mod assembled;
 mod auxiliaries;
@@ -18,6 +19,7 @@ mod element_model;
 mod elements;
 mod evaluation;
 pub mod evaluator;
+mod excerpt;
 mod formulate;
 pub mod lifted;
 mod names;
@@ -35,6 +37,7 @@ pub mod with_states;
 use thiserror::Error;
 
 pub use crate::linear_algebra::Pattern;
+pub use around::Around;
 pub use assemble::{AssemblyError, Classification, assemble, classify, volumes};
 pub use assembled::{RibModel, RowOrigin};
 pub use class::Class;
@@ -215,6 +218,11 @@ pub trait Model: Sync {
     /// Gives auxiliary variables the values that follow from the user's own, so that the objective and the rows are what the
     /// user's expressions are at this point.
     fn complete(&self, _x: &mut [f64]) {}
+
+    /// The rows and terms that hold one of these variables, where the model can be taken apart.
+    fn around(&self, _variables: &[u32]) -> Option<Around<'_>> {
+        None
+    }
 
     /// The model seen as independent small ones, where it decomposes and can be evaluated component by component.
     fn components(&self) -> Option<Box<dyn Components + '_>> {

@@ -2,13 +2,16 @@
 
 use crate::model::Meta;
 
-/// An even selection of at most so many variables, in at most so many groups whose variables stand apart.
-pub(super) fn apart(meta: &Meta, most: usize, groups: usize) -> Vec<Vec<u32>> {
-    let n = meta.variables();
-    let step = n.div_ceil(most).max(1);
-    let reached = Reached::by(meta, step);
+/// An even selection of at most so many of n variables.
+pub(super) fn even(n: usize, most: usize) -> Vec<u32> {
+    (0..n as u32).step_by(n.div_ceil(most).max(1)).collect()
+}
+
+/// Some variables, ascending, in at most so many groups whose variables stand apart.
+pub(super) fn apart(meta: &Meta, selected: &[u32], groups: usize) -> Vec<Vec<u32>> {
+    let reached = Reached::by(meta, selected);
     let mut found: Vec<(Vec<u32>, Vec<bool>)> = Vec::new();
-    for (at, j) in (0..n as u32).step_by(step).enumerate() {
+    for (at, &j) in selected.iter().enumerate() {
         let own = &reached.of[at];
         let is_free = |(_, taken): &(Vec<u32>, Vec<bool>)| own.iter().all(|&place| !taken[place as usize]);
         let free = found.iter().position(is_free).or_else(|| {
@@ -30,12 +33,14 @@ struct Reached {
 }
 
 impl Reached {
-    fn by(meta: &Meta, step: usize) -> Self {
+    fn by(meta: &Meta, selected: &[u32]) -> Self {
         let (n, m) = (meta.variables(), meta.rows());
-        let mut of = vec![Vec::new(); n.div_ceil(step)];
+        let mut of = vec![Vec::new(); selected.len()];
+        let mut places = vec![None; n];
+        selected.iter().enumerate().for_each(|(at, &j)| places[j as usize] = Some(at));
         let mut add = |j: usize, place: usize| {
-            if j.is_multiple_of(step) {
-                of[j / step].push(place as u32);
+            if let Some(at) = places[j] {
+                of[at].push(place as u32);
             }
         };
         meta.jacobian.iter().for_each(|(row, column)| add(column, row));
@@ -61,8 +66,8 @@ mod tests {
             hessian: Pattern::from_positions(4, &mut vec![(2, 1), (3, 3)]),
             ..Meta::default()
         };
-        assert_eq!(apart(&meta, 4, 9), [vec![0, 2, 3], vec![1]]);
-        assert_eq!(apart(&meta, 4, 1), [vec![0, 2, 3]]);
-        assert_eq!(apart(&meta, 2, 9), [vec![0, 2]]);
+        assert_eq!(apart(&meta, &even(4, 4), 9), [vec![0, 2, 3], vec![1]]);
+        assert_eq!(apart(&meta, &even(4, 4), 1), [vec![0, 2, 3]]);
+        assert_eq!(apart(&meta, &even(4, 2), 9), [vec![0, 2]]);
     }
 }

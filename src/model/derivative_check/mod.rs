@@ -9,9 +9,9 @@ mod tests;
 
 use std::collections::HashMap;
 
-use super::{Components, EvaluationError, Model};
+use super::{Around, Components, EvaluationError, Meta, Model};
 use along::Along;
-use apart::apart;
+use apart::{apart, even};
 
 /// Variables looked at one by one; of a larger model an even selection of as many is, many at once.
 const MOST_VARIABLES: usize = 400;
@@ -100,19 +100,47 @@ fn check_components(components: &dyn Components, x: &[f64]) -> Result<Derivative
 
 fn check_whole(model: &dyn Model, x: &[f64]) -> Result<DerivativeCheck, EvaluationError> {
     let exact = Exact::at(model, x)?;
-    let (n, meta) = (x.len(), model.meta());
-    let size = n + meta.rows() + meta.jacobian.len() + meta.hessian.len();
-    let groups = match n {
-        0..=MOST_VARIABLES => (0..n as u32).map(|j| vec![j]).collect(),
-        _ => apart(meta, MOST_VARIABLES, (WORK / size).max(1)),
-    };
-    let looked_at = groups.iter().map(Vec::len).sum();
-    let mut check = DerivativeCheck { variables: (looked_at, n), ..DerivativeCheck::default() };
-    let families = families(model);
-    for group in groups {
-        compare_columns(model, &Along::new(x, group), &exact, &families, &mut check);
+    let (n, selected) = (x.len(), even(x.len(), MOST_VARIABLES));
+    if n <= MOST_VARIABLES {
+        let one_by_one = selected.into_iter().map(|j| vec![j]).collect();
+        return Ok(Differences { model, x, exact: &exact }.check(one_by_one, n));
     }
-    Ok(check)
+    // The derivatives are those of the whole, the differences of what the variables reach.
+    let Some(near) = model.around(&selected) else {
+        let groups = apart(model.meta(), &selected, groups_at_most(model.meta()));
+        return Ok(Differences { model, x, exact: &exact }.check(groups, n));
+    };
+    let place = |j: &u32| near.variables.binary_search(j).ok().map(|place| place as u32);
+    let selected: Vec<u32> = selected.iter().filter_map(place).collect();
+    let groups = apart(near.model.meta(), &selected, groups_at_most(near.model.meta()));
+    let x: Vec<f64> = near.variables.iter().map(|&j| x[j as usize]).collect();
+    Ok(Differences { model: near.model.as_ref(), x: &x, exact: &exact.of(&near) }.check(groups, n))
+}
+
+/// Directions that are worth their evaluations.
+fn groups_at_most(meta: &Meta) -> usize {
+    let size = meta.variables() + meta.rows() + meta.jacobian.len() + meta.hessian.len();
+    (WORK / size).max(1)
+}
+
+/// A model at a point, and derivatives to compare its differences with.
+struct Differences<'a> {
+    model: &'a dyn Model,
+    x: &'a [f64],
+    exact: &'a Exact,
+}
+
+impl Differences<'_> {
+    /// Moves groups of variables, of `all` there are.
+    fn check(&self, groups: Vec<Vec<u32>>, all: usize) -> DerivativeCheck {
+        let looked_at = groups.iter().map(Vec::len).sum();
+        let mut check = DerivativeCheck { variables: (looked_at, all), ..DerivativeCheck::default() };
+        let families = families(self.model);
+        for group in groups {
+            compare_columns(self.model, &Along::new(self.x, group), self.exact, &families, &mut check);
+        }
+        check
+    }
 }
 
 struct Exact {
@@ -138,6 +166,17 @@ impl Exact {
         model.jacobian(x, &mut exact.jacobian)?;
         model.hessian(x, 1.0, &exact.y, &mut exact.hessian)?;
         Ok(exact)
+    }
+
+    /// Those of an excerpt.
+    fn of(&self, near: &Around<'_>) -> Exact {
+        let pick = |values: &[f64], places: &[u32]| places.iter().map(|&at| values[at as usize]).collect();
+        Exact {
+            gradient: pick(&self.gradient, &near.variables),
+            jacobian: near.jacobian.iter().map(|&at| self.jacobian[at]).collect(),
+            hessian: near.hessian.iter().map(|&at| self.hessian[at]).collect(),
+            y: pick(&self.y, &near.rows),
+        }
     }
 
     /// Derivatives of the objective and the rows along a direction, and the variable of the group each depends on.
