@@ -12,9 +12,11 @@ const BOXES: [f64; 2] = [1e3, 1e5];
 /// Variable j diverges where |x_j − start_j| > DIVERGED·size_j.
 const DIVERGED: f64 = 100.0;
 /// Rounding may hide a violation at x where |x_j − start_j| > TOO_FAR·size_j for some j.
-const TOO_FAR: f64 = 1e4;
+pub(super) const TOO_FAR: f64 = 1e4;
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
+/// f' < f − SHARE·|f| is lower, |x'_j − start_j| < SHARE·|x_j − start_j| nearer.
+const SHARE: f64 = 0.5;
 /// Points within SAME·d_j of one another are one.
 const SAME: f64 = 1e-6;
 /// Places on a way are led back to the rows within this, relative to the variables there.
@@ -89,25 +91,43 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
         if !answer.feasible || own.certified || own.objective > certificate.objective + level {
             return None;
         }
-        if is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
-            return tail(answer);
+        let is_lower = own.objective < certificate.objective - level;
+        if is_lower || is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
+            if let Some(tail) = tail(answer) {
+                return Some(tail);
+            }
         }
         let straight = || terrain.straight(x, &difference(x, start)).or_else(|| terrain.power_curve(x));
-        if own.objective < certificate.objective - level {
-            return straight().or_else(|| terrain.towards_edge(x));
+        // However little lower: a way from there that never stops falling is a proof. That from one feasible point to another is on the rows.
+        if own.objective < certificate.objective {
+            let onwards = || terrain.straight(x, &difference(x, &best.solution.x));
+            return straight().or_else(onwards).or_else(|| if is_lower { terrain.towards_edge(x) } else { None });
         }
         own.runaway.iter().any(is_far).then(straight).flatten()
     };
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
 }
 
-/// Whether a point has gone on the way on which the variables of a judged one run away: all of them as far, or far from where they come from.
+/// Whether a point has gone on the way on which the variables of a judged one run away: all of them as far, or one of them far from where
+/// it comes from and farther (a slack beside it may have gone to and fro).
 fn is_on_the_way(start: &[f64], own: &Certificate, x: &[f64], point: &[f64]) -> bool {
-    let goes_on = |&j: &usize| {
-        let (gone, way) = (point[j] - start[j], x[j] - start[j]);
-        way != 0.0 && gone * way.signum() >= way.abs().min(DIVERGED * size(start[j]))
+    let gone = |j: usize| (point[j] - start[j]) * (x[j] - start[j]).signum();
+    let way = |j: usize| (x[j] - start[j]).abs();
+    let far = |j: usize| DIVERGED * size(start[j]);
+    let goes_on = |&j: &usize| way(j) != 0.0 && gone(j) >= way(j).min(far(j));
+    let goes_far = |&j: &usize| way(j) != 0.0 && gone(j) >= way(j).max(far(j));
+    !own.runaway.is_empty() && (own.runaway.iter().all(goes_on) || own.runaway.iter().any(goes_far))
+}
+
+/// Whether a feasible answer is lower than a judged one by a share of the objective itself, and nearer to where a variable comes from that has
+/// gone far: what is small at the judged point is small only beside what its variables have grown to.
+pub(super) fn is_lower_nearer(session: &Session<'_>, answer: &Answer, (own, far): (&Certificate, &[f64])) -> bool {
+    let start = &session.task.model.meta().start;
+    let nearer = |(&start, (&x, &far)): (&f64, (&f64, &f64))| {
+        is_farther(far, start, TOO_FAR) && (x - start).abs() < SHARE * (far - start).abs()
     };
-    !own.runaway.is_empty() && own.runaway.iter().all(goes_on)
+    let is_lower = answer.objective.is_some_and(|objective| own.objective - objective > SHARE * own.objective.abs());
+    answer.feasible && is_lower && start.iter().zip(answer.solution.x.iter().zip(far)).any(nearer)
 }
 
 /// Whether a judged point is where variables have run off: beside `far`, or as far out in a variable that is far there.

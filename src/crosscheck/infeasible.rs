@@ -9,12 +9,14 @@ mod relaxed;
 use std::cell::RefCell;
 
 use super::Conflict;
+use super::diverging;
 use super::ledger::Ledger;
 use super::seeds::Seeds;
 use super::session::{Session, Solver};
 use super::work::{self, Allowance};
 use crate::certificate::{Certifier, contradiction};
-use crate::model::{Elastic, Model, Substitution};
+use crate::model::{Elastic, Model, Substitution, WithBounds};
+use crate::recession::size;
 use relaxed::{Asked, Relaxed, carriers, nothing_violated, sized};
 
 /// Further starts of the elastic phase where violations may have local minima.
@@ -78,7 +80,10 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
     }
     let best = match work.least_violation(&all, start)? {
         Least::Feasible(z) if known => work.relax(&all, &z)?,
-        Least::Feasible(z) => return Some(Elasticity::Feasible(work.outward(&z))),
+        Least::Feasible(z) => match work.contradiction_nearby(&all, &z) {
+            Some(best) => best,
+            None => return Some(Elasticity::Feasible(work.outward(&z))),
+        },
         Least::Violation(best) => work.in_own_scales(&all, *best),
     };
     let is_least = best.certificate.certified;
@@ -235,6 +240,25 @@ impl<'a> Work<'a> {
             }
         }
         best
+    }
+
+    /// Where rows seem to be met only far from the start: the elastic minimum beside it, if its multipliers prove that nothing meets them
+    /// anywhere. What rounding leaves of rows so far out is no violation.
+    fn contradiction_nearby(&self, rows: &[usize], z: &[f64]) -> Option<Relaxed> {
+        let meta = self.model.meta();
+        if !diverging::is_too_far(self.session, &self.outward(z)) {
+            return None;
+        }
+        let beside = |(start, bound): (&f64, &f64), way: f64| {
+            let reach = start + way * diverging::TOO_FAR * size(*start);
+            if way > 0.0 { reach.min(*bound) } else { reach.max(*bound) }
+        };
+        let lower = meta.start.iter().zip(&meta.lower).map(|pair| beside(pair, -1.0)).collect();
+        let upper = meta.start.iter().zip(&meta.upper).map(|pair| beside(pair, 1.0)).collect();
+        self.refill();
+        let boxed = WithBounds::new(self.model, lower, upper);
+        let relaxed = self.relax_model(&boxed, rows, &meta.start, Asked::Multipliers)?;
+        self.is_contradiction(&relaxed).then_some(relaxed)
     }
 
     /// The elastic minimum over these rows by one backend.

@@ -6,6 +6,8 @@ use crate::certificate::Certificate;
 
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
+/// A point that is above an infimum by REACHED·AGREEMENT·σ has not reached it.
+const REACHED: f64 = 1e-2;
 /// Roundings of an objective's terms.
 const ROUNDINGS: f64 = 64.0;
 
@@ -19,9 +21,19 @@ pub(super) fn is_coarse(certificate: &Certificate) -> bool {
 
 /// Below which objectives do not differ from that of a judged point: the agreement, or the rounding of the objective's terms.
 pub(super) fn level(session: &Session<'_>, x: &[f64], certificate: &Certificate) -> f64 {
+    within(AGREEMENT, session, x, certificate)
+}
+
+/// Within which a minimum is reached that is attained: solvers end well inside what is accepted, also where there is no more below than that.
+pub(super) fn reached(session: &Session<'_>, x: &[f64], certificate: &Certificate) -> f64 {
+    within(REACHED * AGREEMENT, session, x, certificate)
+}
+
+/// So many σ, or the rounding of the objective's terms.
+fn within(share: f64, session: &Session<'_>, x: &[f64], certificate: &Certificate) -> f64 {
     let begun = session.task.model.objective(session.task.start).map_or(0.0, f64::abs);
     let sigma = certificate.sigma.min(STEEPEST * (certificate.objective.abs() + begun));
-    (AGREEMENT * sigma).max(rounding(session, x, certificate.objective))
+    (share * sigma).max(rounding(session, x, certificate.objective))
 }
 
 /// Roundings of f's terms at x; where they are not known, |f| and |∂f/∂x_j·x_j| stand for them.

@@ -165,6 +165,7 @@ fn conclude(ledger: &mut Ledger<'_, '_>, answers: Vec<Answer>) -> Outcome {
 /// The outcome where an answer passed and nothing speaks against it; else the answers, as far as they still stand.
 fn from_certified(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Result<Outcome, Vec<Answer>> {
     let session = ledger.session;
+    verdict::withdraw_far(session, &mut answers);
     let certified = |answers: &[Answer]| verdict::best(session, answers).filter(|&best| answers[best].is_certified());
     let Some(best) = certified(&answers) else { return Err(answers) };
     if let Some((x, conflict)) = contradicted(ledger, &answers[best]) {

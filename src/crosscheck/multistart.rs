@@ -28,13 +28,13 @@ pub(super) fn run(session: &Session<'_>, solvers: &[Solver<'_>], order: &[usize]
     (0..count).into_par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// A certified answer not above `value`, beyond what counts as agreement, from the origin, from dips beside the start that leads to `far`, or
+/// A certified answer not above `value` from the origin, from dips beside the start that leads to `far`, or
 /// from one of a few seeded starts, where one is found soon: what runs off from one start may be attained from another. Not in the
 /// same tail.
 pub(super) fn attained(ledger: &Ledger<'_, '_>, (value, far): (f64, &[f64])) -> Option<Found> {
     let session = ledger.session;
     let is_attained = |answer: &Answer| {
-        let reaches = |own: &Certificate| own.objective <= value + merit::level(session, &answer.solution.x, own);
+        let reaches = |own: &Certificate| own.objective <= value + merit::reached(session, &answer.solution.x, own);
         // What is flat at the same value is as likely another place in the tail.
         let is_elsewhere = |own: &Certificate| {
             !own.minimiser_may_not_be_unique && !diverging::is_in_tail(session, &answer.solution.x, (own, far))

@@ -1,5 +1,6 @@
 //! From judged answers to the outcome.
 
+use super::diverging;
 use super::merit;
 use super::messages;
 use super::session::Session;
@@ -56,9 +57,28 @@ pub(super) fn certified(session: &Session<'_>, mut answers: Vec<Answer>) -> Outc
 fn withdraw(session: &Session<'_>, answers: &mut [Answer]) {
     let Some(best) = best(session, answers).map(|best| answers[best].clone()) else { return };
     for answer in answers.iter_mut().filter(|answer| answer.is_certified() && merit::is_lower(session, &best, answer)) {
-        let Some(certificate) = &mut answer.certificate else { continue };
+        take_away(answer, format!("{} holds a lower point, and a convex problem has one minimum", best.backend));
+    }
+}
+
+/// Of a problem whose minima are global, points far out lose their certificate to feasible ones that are lower and nearer.
+pub(super) fn withdraw_far(session: &Session<'_>, answers: &mut [Answer]) {
+    let is_beaten = |answer: &Answer| {
+        let own = answer.certificate.as_ref().filter(|own| own.certified);
+        own.is_some_and(|own| {
+            answers.iter().any(|rival| diverging::is_lower_nearer(session, rival, (own, &answer.solution.x)))
+        })
+    };
+    let beaten: Vec<bool> = answers.iter().map(|answer| session.task.class.is_global() && is_beaten(answer)).collect();
+    for (answer, _) in answers.iter_mut().zip(beaten).filter(|(_, is_beaten)| *is_beaten) {
+        take_away(answer, "nearer to where the variables come from there is a lower point, by more than half of the objective".to_owned());
+    }
+}
+
+fn take_away(answer: &mut Answer, why: String) {
+    if let Some(certificate) = &mut answer.certificate {
         (certificate.certified, certificate.scope) = (false, Extent::Local);
-        certificate.messages.push(format!("{} holds a lower point, and a convex problem has one minimum", best.backend));
+        certificate.messages.push(why);
     }
 }
 

@@ -26,21 +26,29 @@ impl Height {
     }
 }
 
-/// What the last digits of x make of a function: `change(x')` is by how much its value at x' differs from that at x. Those of fixed variables
-/// are given.
+/// What the last digits of x, and of where the variables come from, make of a function: `change(x')` is by how much its value at x' differs
+/// from that at x. A variable next to 0 has all its digits; what a model makes of it, (x + 16) − 16, has those of the start alone.
 pub(super) fn last_digits(meta: &Meta, x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
-    let noise_of = |digits: f64| change(&with_digits_moved(meta, x, digits)).unwrap_or(0.0);
-    DIGITS.into_iter().map(noise_of).fold(0.0, f64::max)
+    let begun = |(x, start): (&f64, &f64)| if start.abs() > x.abs() { *start } else { *x };
+    let sizes: Vec<f64> = x.iter().zip(meta.typical.iter().chain(std::iter::repeat(&0.0))).map(begun).collect();
+    let noise_of = |digits: f64, sizes: &[f64]| change(&moved(meta, x, sizes, digits)).unwrap_or(0.0);
+    let worst = |sizes: &[f64]| DIGITS.into_iter().map(|digits| noise_of(digits, sizes)).fold(0.0, f64::max);
+    if sizes == x { worst(x) } else { worst(x).max(worst(&sizes)) }
 }
 
-/// x with each variable moved by up to so many of its last digits, fixed ones left; each by its own: moved alike they would keep their
-/// differences.
+/// x with each variable moved by up to so many of its last digits, fixed ones left.
 pub fn with_digits_moved(meta: &Meta, x: &[f64], digits: f64) -> Vec<f64> {
-    let moved = |(j, x): (usize, &f64)| match meta.is_fixed(j) {
+    moved(meta, x, x, digits)
+}
+
+/// x with each variable moved by up to so many last digits of its size, fixed ones left; each by its own: moved alike they would keep their
+/// differences.
+fn moved(meta: &Meta, x: &[f64], sizes: &[f64], digits: f64) -> Vec<f64> {
+    let moved = |(j, (x, size)): (usize, (&f64, &f64))| match meta.is_fixed(j) {
         true => *x,
-        false => x * (1.0 + digits * SplitMix::signed(j as u64) * f64::EPSILON),
+        false => x + digits * SplitMix::signed(j as u64) * f64::EPSILON * size,
     };
-    x.iter().enumerate().map(moved).collect()
+    x.iter().zip(sizes).enumerate().map(moved).collect()
 }
 
 /// Whether heights at places each some eight or ten times as far as the one before fall without end: the last falls are beyond

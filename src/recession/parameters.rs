@@ -46,6 +46,8 @@ parameters! {
         BACK: std::ops::Range<i32> = -6..40;
         /// Decades towards zero, down from the largest numbers there are.
         DECADES: i32 = 310;
+        /// Halvings of the way back to where a variable comes from: all that numbers tell apart.
+        HALVES: i32 = 54;
         /// Halvings between a place with a value and one without.
         BISECTIONS: usize = 60;
         /// A place within BESIDE·d_j of the point is the same but for rounding and what is accepted of rows.

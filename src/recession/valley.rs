@@ -3,7 +3,7 @@
 use super::floor::{Floor, back_to_rows, settle};
 use super::height::{Fall, Height, is_endless, last_digits};
 use super::parameters::height::ROUNDINGS;
-use super::parameters::valley::{BACK, BESIDE, BISECTIONS, DECADE, DECADES, DOUBLINGS, ENOUGH, FIRST, HALVINGS, LEFT_BEHIND};
+use super::parameters::valley::{BACK, BESIDE, BISECTIONS, DECADE, DECADES, DOUBLINGS, ENOUGH, FIRST, HALVES, HALVINGS, LEFT_BEHIND};
 use crate::model::{Meta, Model};
 
 /// A stationary point and what is known about it.
@@ -147,14 +147,18 @@ impl<'a> Valley<'a> {
         Some(heights)
     }
 
-    /// Whether the objective rises, beyond rounding, on the way back: by growing steps, or, where numbers are large, in decades
-    /// towards zero. Where the model's values end on that way, the last place before is looked for.
+    /// Whether the objective rises, beyond rounding, on the way back: by growing steps, where numbers are large, in decades towards zero, or
+    /// by halves towards where the variable comes from, and there. Where the model's values end on that way, the last place before is
+    /// looked for.
     fn rises_back(&self, lead: &Lead, here: Floor, base: Height) -> bool {
-        let origin = here.x[lead.pivot];
+        let (origin, start) = (here.x[lead.pivot], self.site.meta().start[lead.pivot]);
+        let leads_from = |place: f64| (origin - place) * lead.step > 0.0;
         let steps = BACK.map(|doubling| origin - lead.step * f64::from(doubling).exp2());
         let decades = (1..DECADES).map(|decade| origin * 10f64.powi(-decade));
-        let towards_zero = origin * lead.step > 0.0;
-        self.rises_along(lead, steps, &here, base) || (towards_zero && self.rises_along(lead, decades, &here, base))
+        let halves = (1..HALVES).map(|halving| start + (origin - start) * f64::from(-halving).exp2()).chain([start]);
+        self.rises_along(lead, steps, &here, base)
+            || (leads_from(0.0) && self.rises_along(lead, decades, &here, base))
+            || (leads_from(start) && self.rises_along(lead, halves, &here, base))
     }
 
     fn rises_along(&self, lead: &Lead, ways: impl Iterator<Item = f64>, here: &Floor, base: Height) -> bool {

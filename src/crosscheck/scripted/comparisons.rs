@@ -25,3 +25,16 @@ fn of_two_minima_of_a_convex_problem_the_higher_is_none() {
     assert_eq!((found.status, found.best), (Status::Certified, Some(1)));
     assert!(!found.answers[0].is_certified());
 }
+
+#[test]
+fn a_point_far_out_is_no_global_minimum_above_a_nearer_one() {
+    // Beside variables of 1e20 that cancel to 6e10, the slope of e^(−62) is nothing.
+    let model = Sample::new(&[1.0, 1.0], |x| ((x[0] + x[1]) * 1e-9).exp());
+    let far = Script::new("far", &[&[7.5e19, -7.5e19 - 6.2e10]]);
+    let nearer = Script::new("nearer", &[&[0.0, -1.5e11]]);
+    let found = judged(&model, Class::Convex, &Settings::default(), &[&far, &nearer], None);
+    one_verdict(&found);
+    assert!(!matches!(found.status, Status::Certified), "{found:#?}");
+    let (own, beaten) = (&found.answers[1], &found.answers[0]);
+    assert!(own.objective < beaten.objective && !beaten.is_certified());
+}

@@ -54,3 +54,21 @@ fn what_is_attained_stays() {
     let line = Sample::new(&[1.0, 1.0], |x| (x[0] - x[1]).powi(2));
     assert!(!runs_off(&line, &[5.0, 5.0], &[], 0, 1.0));
 }
+
+#[test]
+fn a_hump_is_found_where_the_variable_comes_from() {
+    // At 65 all is level; steps of 14.3·2^k back from there pass over the hump, 12 wide, about 0.
+    let bell = Sample::new(&[-7.0, 0.0], |x| (-(x[0] + 8.0).powi(2)).exp() + x[1] * x[1] - 1.0);
+    assert!(runs_off(&bell, &[57.2247, 0.0], &[], 0, 1.0));
+}
+
+#[test]
+fn what_the_start_has_of_digits_is_all_a_valley_has() {
+    // y + 16 − 16 is known to the digits of 16: beyond x = 1e7 the floor is lost in them.
+    let valley = |x: &[crate::model::sample::Value]| {
+        let (a, b) = (x[0] + 3.5, (x[1] + 16.0) - 16.0);
+        (a * b - 1.0).powi(2) + b * b
+    };
+    let valley = Sample::new(&[-1.5, 3.0], valley);
+    assert!(runs_off(&valley, &[317_279.0, 1.0 / 317_282.5], &[], 0, 1.0));
+}
