@@ -219,7 +219,7 @@ pub trait Model: Sync {
     /// user's expressions are at this point.
     fn complete(&self, _x: &mut [f64]) {}
 
-    /// The rows and terms that hold one of these variables, where the model can be taken apart.
+    /// The terms that hold one of these variables, where the model can be taken apart.
     fn around(&self, _variables: &[u32]) -> Option<Around<'_>> {
         None
     }
