@@ -55,6 +55,48 @@ fn exact_derivatives_of_every_shipped_problem_agree_with_differences() {
     assert!(files >= 10);
 }
 
+#[test]
+fn what_some_variables_reach_changes_with_them_as_the_whole_does() {
+    let text = r#"
+parameters = { N = 1000 }
+minimize = "sum(i in 1..N: x[i]^2*x[i+1]) + x[7]*y"
+[variables]
+x = { size = "N + 1", lower = 0.1, upper = 2, start = 0.7 }
+y = { lower = 0, upper = 9, start = 1 }
+[[constraints]]
+name = "link"
+for = "i in 1..N"
+require = "x[i]*x[i+1]^3 + 2*x[i] <= 30"
+[[constraints]]
+name = "all"
+require = "sum(i in 1..N: log(x[i]) + 3*x[i]) + y^2 <= 9000"
+"#;
+    let whole = model(text);
+    let selected: Vec<u32> = (0..whole.meta().variables() as u32).step_by(251).collect();
+    let near = whole.around(&selected).unwrap();
+    assert!(near.variables.len() <= 4 * selected.len() && near.rows.len() <= 3 * selected.len());
+    let x: Vec<f64> = (0..whole.meta().variables()).map(|j| 0.5 + (j as f64 * 0.618).fract()).collect();
+    let own = |x: &[f64]| -> Vec<f64> { near.variables.iter().map(|&j| x[j as usize]).collect() };
+    let rows = |model: &dyn Model, x: &[f64]| {
+        let mut rows = vec![0.0; model.meta().rows()];
+        model.constraints(x, &mut rows).unwrap();
+        rows
+    };
+    let mut moved = x.clone();
+    selected.iter().for_each(|&j| moved[j as usize] += 0.01);
+    let of_whole = whole.objective(&moved).unwrap() - whole.objective(&x).unwrap();
+    let of_part = near.model.objective(&own(&moved)).unwrap() - near.model.objective(&own(&x)).unwrap();
+    assert!((of_whole - of_part).abs() < 1e-10 && of_part.abs() > 1e-3);
+    let (before, after) = (rows(&whole, &x), rows(&whole, &moved));
+    let (part_before, part_after) = (rows(near.model.as_ref(), &own(&x)), rows(near.model.as_ref(), &own(&moved)));
+    for (k, &i) in near.rows.iter().enumerate() {
+        let (of_whole, name) = (after[i as usize] - before[i as usize], whole.meta().names.row(i as usize));
+        assert!((of_whole - (part_after[k] - part_before[k])).abs() < 1e-10, "{name}");
+        assert_eq!(name, near.model.row_name(k));
+    }
+    assert_derivatives(&whole, "the whole, by what is near");
+}
+
 /// Two ribs between three sections of one kind, by both laws, with rows on every property.
 fn ribs_of(kind: &str, dimensions: &str, properties: &[&str]) -> String {
     let mut text = String::new();
