@@ -38,7 +38,8 @@ fn are_apart(a: &Line, b: &Line, sizes: &LazyCell<Vec<f64>, impl FnOnce() -> Vec
     if lower <= a.upper && a.lower <= upper {
         return false;
     }
-    let terms = a.entries.iter().map(|&(j, a)| (a * sizes[j]).abs()).fold(0.0, f64::max);
+    let fixed = a.fixed.max(b.fixed * (first / second).abs());
+    let terms = a.entries.iter().map(|&(j, a)| (a * sizes[j]).abs()).fold(fixed, f64::max);
     let apart = |least: f64, most: f64| least - most > ease * terms.max(least.abs()).max(most.abs());
     apart(lower, a.upper) || apart(a.lower, upper)
 }
@@ -54,7 +55,7 @@ mod tests {
     use super::*;
 
     fn line(entries: &[(usize, f64)], lower: f64, upper: f64) -> Option<Line> {
-        Some(Line { entries: entries.to_vec(), lower, upper })
+        Some(Line { entries: entries.to_vec(), lower, upper, fixed: 0.0 })
     }
 
     #[test]
@@ -65,6 +66,9 @@ mod tests {
         assert_eq!(contradiction(&[one(), twice(2.0)], || vec![1.0, 1.0], 4e-8), None);
         // Beside terms of this size that is within the tolerance.
         assert_eq!(contradiction(&[one(), twice(2.000002)], || vec![1e3, 1.0], 4e-8), None);
+        // Nor beside fixed variables' terms.
+        let fixed = Line { fixed: 1e3, ..twice(2.000002).unwrap() };
+        assert_eq!(contradiction(&[one(), Some(fixed)], || vec![1.0, 1.0], 4e-8), None);
         // No multiple.
         let other = line(&[(0, 2.0), (1, 2.0 + 1e-15)], 3.0, 3.0);
         assert_eq!(contradiction(&[one(), other], || vec![1.0, 1.0], 4e-8), None);

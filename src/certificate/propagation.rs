@@ -51,7 +51,7 @@ fn tighten(line: &Line, lower: &mut [f64], upper: &mut [f64], ease: f64) -> Tigh
         least.add(low);
         most.add(high);
     }
-    let slack = |end: End, limit: f64| ease * (limit.abs() + end.magnitude);
+    let slack = |end: End, limit: f64| ease * (limit.abs() + end.magnitude + line.fixed);
     let at_most = line.upper + slack(least, line.upper);
     let at_least = line.lower - slack(most, line.lower);
     if (least.open == 0 && least.sum > at_most) || (most.open == 0 && most.sum < at_least) {
@@ -86,7 +86,7 @@ mod tests {
     const INF: f64 = f64::INFINITY;
 
     fn line(entries: &[(usize, f64)], lower: f64, upper: f64) -> Line {
-        Line { entries: entries.to_vec(), lower, upper }
+        Line { entries: entries.to_vec(), lower, upper, fixed: 0.0 }
     }
 
     #[test]

@@ -65,13 +65,14 @@ fn withdraw(session: &Session<'_>, answers: &mut [Answer]) {
 pub(super) fn withdraw_far(session: &Session<'_>, answers: &mut [Answer]) {
     let is_beaten = |answer: &Answer| {
         let own = answer.certificate.as_ref().filter(|own| own.certified);
-        own.is_some_and(|own| {
-            answers.iter().any(|rival| diverging::is_lower_nearer(session, rival, (own, &answer.solution.x)))
-        })
+        own.is_some_and(|own| answers.iter().any(|rival| diverging::is_lower_nearer(session, rival, (own, &answer.solution.x))))
     };
     let beaten: Vec<bool> = answers.iter().map(|answer| session.task.class.is_global() && is_beaten(answer)).collect();
     for (answer, _) in answers.iter_mut().zip(beaten).filter(|(_, is_beaten)| *is_beaten) {
-        take_away(answer, "nearer to where the variables come from there is a lower point, by more than half of the objective".to_owned());
+        take_away(
+            answer,
+            "nearer to where the variables come from there is a lower point, by more than half of the objective".to_owned(),
+        );
     }
 }
 

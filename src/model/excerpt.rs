@@ -1,9 +1,9 @@
 //! Some variables, rows and terms of a large model as a model of its own, with elements copied from it.
 
+use super::Meta;
 use super::affine::Affine;
 use super::element_model::ElementModel;
 use super::elements::KernelGroup;
-use super::Meta;
 
 /// Which variables and rows, ascending, and where they stand among those selected.
 pub(super) struct Selection<'a> {

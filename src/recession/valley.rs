@@ -3,7 +3,9 @@
 use super::floor::{Floor, back_to_rows, settle};
 use super::height::{Fall, Height, is_endless, last_digits};
 use super::parameters::height::ROUNDINGS;
-use super::parameters::valley::{BACK, BESIDE, BISECTIONS, DECADE, DECADES, DOUBLINGS, ENOUGH, FIRST, HALVES, HALVINGS, LEFT_BEHIND};
+use super::parameters::valley::{
+    BACK, BESIDE, BISECTIONS, DECADE, DECADES, DOUBLINGS, ENOUGH, FIRST, HALVES, HALVINGS, LEFT_BEHIND,
+};
 use crate::model::{Meta, Model};
 
 /// A stationary point and what is known about it.
