@@ -92,10 +92,9 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
             return None;
         }
         let is_lower = own.objective < certificate.objective - level;
-        if is_lower || is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x) {
-            if let Some(tail) = tail(answer) {
-                return Some(tail);
-            }
+        let is_in_it = is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x);
+        if let Some(tail) = tail(answer).filter(|_| is_lower || is_in_it) {
+            return Some(tail);
         }
         let straight = || terrain.straight(x, &difference(x, start)).or_else(|| terrain.power_curve(x));
         // However little lower: a way from there that never stops falling is a proof. That from one feasible point to another is on the rows.
