@@ -11,8 +11,8 @@ pub(super) struct Line {
     pub(super) fixed: f64,
 }
 
-/// The linear rows, and the Jacobian they are read from; a row's constant, fixed variables' terms with it, is taken off its limits. `None` where the model has no value at its
-/// start.
+/// The linear rows, and the Jacobian they are read from; a row's constant, fixed variables' terms with it, is taken off its limits. `None`
+/// where the model has no value at its start.
 pub(super) fn of(model: &dyn Model) -> Option<(Vec<Option<Line>>, Vec<f64>)> {
     let meta = model.meta();
     if !(0..meta.rows()).any(|i| meta.is_row_linear(i)) {

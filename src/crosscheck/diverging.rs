@@ -165,11 +165,7 @@ fn corner(session: &Session<'_>, solver: Solver<'_>, width: f64) -> Option<Vec<f
     if session.clock.is_over() {
         return None;
     }
-    let meta = session.task.model.meta();
-    let reach = |start: &f64| width * start.abs().max(1.0);
-    let lower = meta.lower.iter().zip(&meta.start).map(|(bound, start)| bound.max(start - reach(start))).collect();
-    let upper = meta.upper.iter().zip(&meta.start).map(|(bound, start)| bound.min(start + reach(start))).collect();
-    let model = WithBounds::new(session.task.model, lower, upper);
+    let model = WithBounds::about_start(session.task.model, |start| width * start.abs().max(1.0));
     let budget = session.budget(solver, &model, work::further_run(0.0));
     let solution = session.solve_aside(solver, &model, &model.meta().start, budget);
     let feasible = session.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= session.tolerances.constraint);

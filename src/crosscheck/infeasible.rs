@@ -245,19 +245,12 @@ impl<'a> Work<'a> {
     /// Where rows seem to be met only far from the start: the elastic minimum beside it, if its multipliers prove that nothing meets them
     /// anywhere. What rounding leaves of rows so far out is no violation.
     fn contradiction_nearby(&self, rows: &[usize], z: &[f64]) -> Option<Relaxed> {
-        let meta = self.model.meta();
         if !diverging::is_too_far(self.session, &self.outward(z)) {
             return None;
         }
-        let beside = |(start, bound): (&f64, &f64), way: f64| {
-            let reach = start + way * diverging::TOO_FAR * size(*start);
-            if way > 0.0 { reach.min(*bound) } else { reach.max(*bound) }
-        };
-        let lower = meta.start.iter().zip(&meta.lower).map(|pair| beside(pair, -1.0)).collect();
-        let upper = meta.start.iter().zip(&meta.upper).map(|pair| beside(pair, 1.0)).collect();
         self.refill();
-        let boxed = WithBounds::new(self.model, lower, upper);
-        let relaxed = self.relax_model(&boxed, rows, &meta.start, Asked::Multipliers)?;
+        let boxed = WithBounds::about_start(self.model, |start| diverging::TOO_FAR * size(start));
+        let relaxed = self.relax_model(&boxed, rows, &self.model.meta().start, Asked::Multipliers)?;
         self.is_contradiction(&relaxed).then_some(relaxed)
     }
 

@@ -19,6 +19,14 @@ impl<'a> WithBounds<'a> {
         WithBounds { model, meta }
     }
 
+    /// The model within `reach(start_j)` of where each variable starts, and its own bounds.
+    pub fn about_start(model: &'a dyn Model, reach: impl Fn(f64) -> f64) -> Self {
+        let meta = model.meta();
+        let lower = meta.lower.iter().zip(&meta.start).map(|(bound, &start)| bound.max(start - reach(start))).collect();
+        let upper = meta.upper.iter().zip(&meta.start).map(|(bound, &start)| bound.min(start + reach(start))).collect();
+        WithBounds::new(model, lower, upper)
+    }
+
     /// With another upper limit of row `i`.
     pub fn limit(&mut self, i: usize, upper: f64) {
         self.meta.row_upper[i] = upper;
