@@ -7,14 +7,14 @@ use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
 use crate::certificate::parameters::feasibility::ROUNDINGS;
-use crate::certificate::parameters::runaway::{BESIDE, NEARER};
+use crate::certificate::parameters::runaway::{BESIDE, ONWARDS};
 use crate::model::{EvaluationError, Model};
 use crate::recession;
 
-/// Whether the objective is level to the last digit all about the point, though not where the variables come from. One that is analytic is then
-/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it. Far out «about» may
-/// be near: where an exponent's terms cancel one another, the least step has it overflow.
-pub(super) fn is_level_about(point: &Point<'_>) -> bool {
+/// Whether the objective is level to the last digit, though not where the variables come from: all about the point or, far out, all the way on
+/// to twice as far (about it the terms of an exponent that cancel one another may overflow at the least step). One that is analytic is then
+/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it.
+pub(super) fn is_level(point: &Point<'_>) -> bool {
     let (meta, model, is_far) = (point.meta(), &point.origin.model, is_far_out(point));
     if meta.objective_is_linear || (point.sigma != 0.0 && !is_far) {
         return false;
@@ -24,24 +24,22 @@ pub(super) fn is_level_about(point: &Point<'_>) -> bool {
     if !is_other {
         return false;
     }
-    let free: Vec<usize> = (0..point.x.len()).filter(|&j| !meta.is_fixed(j)).collect();
-    // Slopes up to so much of those at the start are none.
-    let is_level = |step: f64, noise: f64| {
-        [step, -step].into_iter().all(|step| {
-            let (x, mut gradient) = (scales::moved(meta, point.x, &point.sizes, step), vec![0.0; point.x.len()]);
-            let Ok(value) = model.gradient(&x, &mut gradient) else { return false };
-            let is_flat = |&j: &usize| gradient[j].abs() <= noise * at_start[j].abs();
-            // … and what these slopes make of the variables' last digits is no change.
-            let digits: f64 = free.iter().map(|&j| noise * (at_start[j] * x[j]).abs()).sum();
-            free.iter().all(is_flat) && (value - point.objective).abs() <= digits
-        })
+    let is_as_here = |x: &[f64]| {
+        let mut gradient = vec![0.0; x.len()];
+        let Ok(value) = model.gradient(x, &mut gradient) else { return false };
+        // Slopes up to so much of those at the start are none, and what the variables' last digits make of a value is no change: √(x² + 1) − x
+        // is nothing else far out.
+        let is_flat = |j: usize| gradient[j].abs() <= if is_far { ROUNDINGS * at_start[j].abs() } else { 0.0 };
+        let change = |moved: &[f64]| model.objective(moved).ok().map(|there| (there - value).abs());
+        (0..x.len()).filter(|&j| !meta.is_fixed(j)).all(is_flat)
+            && (value == point.objective
+                || (is_far && (value - point.objective).abs() <= recession::last_digits(meta, x, change)))
     };
-    let is_constant = |step: f64| point.sigma == 0.0 && is_level(step, 0.0);
-    if !is_far {
-        return is_constant(BESIDE);
+    if is_far {
+        let on = |way: f64| -> Vec<f64> { point.x.iter().zip(&meta.start).map(|(x, start)| x + way * (x - start)).collect() };
+        return ONWARDS.into_iter().all(|way| is_as_here(&on(way)));
     }
-    // √(x² + 1) − x is nothing but the last digit of x there.
-    is_level(BESIDE, ROUNDINGS) || NEARER.into_iter().any(is_constant)
+    [BESIDE, -BESIDE].into_iter().all(|step| is_as_here(&scales::moved(meta, point.x, &point.sizes, step)))
 }
 
 /// The variables that have moved most from where they come from.

@@ -31,6 +31,14 @@ pub(super) fn known_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> V
     told_sizes(origin, x, jacobian).into_iter().map(or_one).collect()
 }
 
+/// What is known of the variables' sizes where a model starts; `None` where it has no derivatives there.
+pub fn sizes_at_start(model: &dyn Model) -> Option<Vec<f64>> {
+    let meta = model.meta();
+    let mut jacobian = vec![0.0; meta.jacobian.len()];
+    model.jacobian(&meta.start, &mut jacobian).ok()?;
+    Some(known_sizes(&Origin::new(model), &meta.start, &jacobian))
+}
+
 /// The sizes of the variables with those far away held back to [`FAR`] times what is known of them.
 pub(super) fn near_sizes(point: &Point<'_>) -> Vec<f64> {
     let known = known_sizes(point.origin, point.x, &point.jacobian);

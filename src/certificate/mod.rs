@@ -47,6 +47,7 @@ use second_order::{Active, Curvature, Hessian};
 use crate::model::{Class, EvaluationError, Model};
 use crate::recession::Ray;
 pub use farkas::{Contradiction, contradiction};
+pub use known_sizes::sizes_at_start;
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;

@@ -11,7 +11,7 @@ use super::runaway::held_rows;
 use super::scales;
 use super::second_order::{Active, Choice};
 use crate::certificate::parameters::higher_order::STRETCH;
-use crate::certificate::parameters::newton::{LENGTH, LOWER, MOVED, NEARLY_ALL, NOISE, SHRUNK, SOON, STEPS};
+use crate::certificate::parameters::newton::{LENGTH, LOWER, MOVED, NEARLY_ALL, NOISE, SHORTENING, SOON, SOON_SHORTENING, STEPS};
 use crate::certificate::parameters::runaway::LARGEST;
 use crate::model::Model;
 use crate::recession::{self, Site};
@@ -81,12 +81,16 @@ fn in_sizes(
     if fallen < NEARLY_ALL || free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
         return Newton::LeadsTo(stretched(&x));
     }
-    let has_shrunk = |at: usize| lengths[at] < SHRUNK * lengths[0] || lengths[0] <= LENGTH;
-    if has_shrunk(SOON) || fallen < 0.5 {
+    if lengths[0] <= LENGTH || fallen < 0.5 {
         return Newton::Stays;
     }
-    if has_shrunk(STEPS - 1) {
-        return Newton::LeadsTo(stretched(&x));
+    // ln of how much shorter each of the first steps has become on average
+    let shortening = |steps: usize| (lengths[0] / lengths[steps].max(LENGTH)).ln() / steps as f64;
+    let (soon, on_the_whole) = (shortening(SOON), shortening(STEPS - 1));
+    if on_the_whole > SHORTENING {
+        // Those that lead to another point are as long as they may be until they come near it.
+        let leads_nowhere = soon > (0.5 * on_the_whole).min(SOON_SHORTENING);
+        return if leads_nowhere { Newton::Stays } else { Newton::LeadsTo(stretched(&x)) };
     }
     let most = free.iter().map(share).fold(0.0, f64::max);
     Newton::Falls(free.iter().copied().filter(|j| share(j) > 1e-3 * most).collect())

@@ -158,10 +158,12 @@ parameters! {
     newton {
         /// Steps taken.
         STEPS: usize = 40;
-        /// length(SOON) < SHRUNK·length(0) where they lead nowhere: towards x^p = 0 by 1 − 1/(p − 1) each, towards exp(−x) → 0 not at all.
+        /// ln(length(k)/length(k + 1)) > SHORTENING on average where they end: towards x^p = 0 it is 1/(p − 1), towards exp(−x) → 0 nothing.
+        SHORTENING: f64 = 5.7e-3;
+        /// … and half as much, or SOON_SHORTENING, among the first SOON steps where they lead nowhere else.
         SOON: usize = 8;
         /// See SOON.
-        SHRUNK: f64 = 0.8;
+        SOON_SHORTENING: f64 = 2.8e-2;
         /// Steps ≤ LENGTH sizes are what the accepted slope and rounding make.
         LENGTH: f64 = 1e-14;
         /// A variable seen at the point has moved where it changed by > MOVED·d_j: the accepted slope leaves 1e−4.
@@ -178,8 +180,9 @@ parameters! {
     runaway {
         /// Level to the last digit BESIDE·d_j about the point, both ways, all derivatives 0: an asymptote (x^p is so for p > 107 only).
         BESIDE: f64 = 1e-3;
-        /// … or so about one that is far from where its variables come from.
-        NEARER: [f64; 3] = [1e-6, 1e-9, 1e-12];
+        /// … or at all of x + ONWARDS·(x − start) from one that is far from where its variables come from: a minimum of even order bends up there
+        /// as much as it did at the start.
+        ONWARDS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
         /// |vᵀSv| ≤ FLAT·|v|²: followed outwards.
         FLAT: f64 = 1e-3;
         /// Flat directions looked at.

@@ -60,7 +60,7 @@ pub(super) fn find(
         Some((direction, fall)) => {
             Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
         }
-        None if asymptote::is_level_about(point) => Runaway::settling(asymptote::moved_most(point)),
+        None if asymptote::is_level(point) => Runaway::settling(asymptote::moved_most(point)),
         None => Runaway::settling(asymptote::towards_bounds(point, active, tolerances.constraint)),
     }
 }

@@ -3,7 +3,7 @@
 use super::Answer;
 use super::session::{Session, Solver};
 use super::work;
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, sizes_at_start};
 use crate::model::{Class, Model, WithBounds};
 use crate::recession::{Fall, Ray, Terrain, is_farther, size};
 
@@ -11,7 +11,7 @@ use crate::recession::{Fall, Ray, Terrain, is_farther, size};
 const BOXES: [f64; 2] = [1e3, 1e5];
 /// Variable j diverges where |x_j − start_j| > DIVERGED·size_j.
 const DIVERGED: f64 = 100.0;
-/// Rounding may hide a violation at x where |x_j − start_j| > TOO_FAR·size_j for some j.
+/// Rounding may hide a violation at x where |x_j − start_j| > TOO_FAR·(what is known of its size where the model starts) for some j.
 pub(super) const TOO_FAR: f64 = 1e4;
 /// Objectives this close, in units of σ, are the same.
 const AGREEMENT: f64 = 1e-6;
@@ -148,7 +148,8 @@ fn is_beside(own: &Certificate, x: &[f64], other: &[f64]) -> bool {
 pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let meta = session.task.model.meta();
     let design = meta.states.map_or(x.len(), |states| states.first_variable);
-    x.iter().zip(&meta.start).take(design).any(|(&x, &start)| is_farther(x, start, TOO_FAR))
+    let sizes = sizes_at_start(session.task.model).unwrap_or_else(|| meta.start.iter().copied().map(size).collect());
+    (0..design).any(|j| (x[j] - meta.start[j]).abs() > TOO_FAR * sizes[j])
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.
@@ -165,7 +166,8 @@ fn corner(session: &Session<'_>, solver: Solver<'_>, width: f64) -> Option<Vec<f
     if session.clock.is_over() {
         return None;
     }
-    let model = WithBounds::about_start(session.task.model, |start| width * start.abs().max(1.0));
+    let start = &session.task.model.meta().start;
+    let model = WithBounds::about_start(session.task.model, |j| width * start[j].abs().max(1.0));
     let budget = session.budget(solver, &model, work::further_run(0.0));
     let solution = session.solve_aside(solver, &model, &model.meta().start, budget);
     let feasible = session.judge.primal_infeasibility(&solution.x).is_some_and(|worst| worst <= session.tolerances.constraint);

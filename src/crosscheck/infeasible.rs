@@ -14,9 +14,8 @@ use super::ledger::Ledger;
 use super::seeds::Seeds;
 use super::session::{Session, Solver};
 use super::work::{self, Allowance};
-use crate::certificate::{Certifier, contradiction};
+use crate::certificate::{Certifier, contradiction, sizes_at_start};
 use crate::model::{Elastic, Model, Substitution, WithBounds};
-use crate::recession::size;
 use relaxed::{Asked, Relaxed, carriers, nothing_violated, sized};
 
 /// Further starts of the elastic phase where violations may have local minima.
@@ -84,7 +83,11 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
             Some(best) => best,
             None => return Some(Elasticity::Feasible(work.outward(&z))),
         },
-        Least::Violation(best) => work.in_own_scales(&all, *best),
+        Least::Violation(best) => {
+            let best = work.in_own_scales(&all, *best);
+            let nearby = if work.is_contradiction(&best) { None } else { work.contradiction_nearby(&all, &best.x) };
+            nearby.unwrap_or(best)
+        }
     };
     let is_least = best.certificate.certified;
     let proof = match known || work.is_contradiction(&best) {
@@ -249,8 +252,11 @@ impl<'a> Work<'a> {
             return None;
         }
         self.refill();
-        let boxed = WithBounds::about_start(self.model, |start| diverging::TOO_FAR * size(start));
-        let relaxed = self.relax_model(&boxed, rows, &self.model.meta().start, Asked::Multipliers)?;
+        let sizes = sizes_at_start(self.model)?;
+        // A start far from 0 says little of what rows tell: 0 is looked at, too.
+        let start = &self.model.meta().start;
+        let boxed = WithBounds::about_start(self.model, |j| start[j].abs() + diverging::TOO_FAR * sizes[j]);
+        let relaxed = self.relax_model(&boxed, rows, start, Asked::Multipliers)?;
         self.is_contradiction(&relaxed).then_some(relaxed)
     }
 

@@ -28,7 +28,7 @@ impl Height {
 
 /// What the last digits of x, and of where the variables come from, make of a function: `change(x')` is by how much its value at x' differs
 /// from that at x. A variable next to 0 has all its digits; what a model makes of it, (x + 16) − 16, has those of the start alone.
-pub(super) fn last_digits(meta: &Meta, x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
+pub fn last_digits(meta: &Meta, x: &[f64], change: impl Fn(&[f64]) -> Option<f64>) -> f64 {
     let begun = |(x, start): (&f64, &f64)| if start.abs() > x.abs() { *start } else { *x };
     let sizes: Vec<f64> = x.iter().zip(meta.typical.iter().chain(std::iter::repeat(&0.0))).map(begun).collect();
     let noise_of = |digits: f64, sizes: &[f64]| change(&moved(meta, x, sizes, digits)).unwrap_or(0.0);

@@ -14,6 +14,6 @@ mod valley;
 mod ways;
 
 pub use floor::newton;
-pub use height::{Fall, with_digits_moved};
+pub use height::{Fall, last_digits, with_digits_moved};
 pub use valley::{Site, Valley};
 pub use ways::{Ray, Terrain, is_farther, size};

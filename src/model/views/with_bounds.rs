@@ -19,11 +19,12 @@ impl<'a> WithBounds<'a> {
         WithBounds { model, meta }
     }
 
-    /// The model within `reach(start_j)` of where each variable starts, and its own bounds.
-    pub fn about_start(model: &'a dyn Model, reach: impl Fn(f64) -> f64) -> Self {
+    /// The model within `reach(j)` of where variable j starts, and its own bounds.
+    pub fn about_start(model: &'a dyn Model, reach: impl Fn(usize) -> f64) -> Self {
         let meta = model.meta();
-        let lower = meta.lower.iter().zip(&meta.start).map(|(bound, &start)| bound.max(start - reach(start))).collect();
-        let upper = meta.upper.iter().zip(&meta.start).map(|(bound, &start)| bound.min(start + reach(start))).collect();
+        let starts = || meta.start.iter().enumerate();
+        let lower = starts().map(|(j, start)| meta.lower[j].max(start - reach(j))).collect();
+        let upper = starts().map(|(j, start)| meta.upper[j].min(start + reach(j))).collect();
         WithBounds::new(model, lower, upper)
     }
 
