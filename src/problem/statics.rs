@@ -4,6 +4,7 @@
 //! The forces of a member are functions of few inputs: its dimensions and its deformations. Deformations are fixed combinations of
 //! displacements, so the assembled model knows them as inputs of its own, and [`crate::model::lifted`] puts the displacements in.
 
+mod loads;
 mod pieces;
 
 use super::structure::{Action, Plane, Structure};
@@ -281,19 +282,4 @@ fn existing(structure: &Structure, members: &[Prepared]) -> Vec<[bool; 6]> {
     let directions = structure.plane.directions();
     exists.iter_mut().for_each(|node| (0..6).for_each(|at| node[at] &= directions[at]));
     exists
-}
-
-impl Action {
-    /// The member it acts on.
-    pub fn member(&self) -> Option<u32> {
-        match self {
-            Action::Nodal { .. } | Action::Displacement { .. } => None,
-            Action::Distributed { member, .. }
-            | Action::Point { member, .. }
-            | Action::SelfWeight { member }
-            | Action::Temperature { member, .. }
-            | Action::Gradient { member, .. }
-            | Action::Pretension { member, .. } => Some(*member),
-        }
-    }
 }

@@ -213,6 +213,13 @@ impl Structure {
         }
     }
 
+    /// Whether in a case or combination ribs deform for other reasons than forces: a settlement, a temperature, a pretension.
+    pub fn is_strained(&self, set: u32) -> bool {
+        let factors = self.factors(set);
+        let acts = |load: &&Load| factors.iter().any(|(case, _)| *case == load.case);
+        self.loads.iter().filter(acts).any(|load| load.action.strains())
+    }
+
     /// The end nodes of the open line that some ribs make up; `None` where they are no such line.
     pub fn chord(&self, ribs: &[u32]) -> Option<[u32; 2]> {
         let mut visits: std::collections::BTreeMap<u32, usize> = std::collections::BTreeMap::new();

@@ -89,6 +89,29 @@ pub enum Action {
     },
 }
 
+impl Action {
+    /// Whether it strains members other than by forces.
+    pub fn strains(&self) -> bool {
+        matches!(
+            self,
+            Action::Displacement { .. } | Action::Temperature { .. } | Action::Gradient { .. } | Action::Pretension { .. }
+        )
+    }
+
+    /// The member it acts on.
+    pub fn member(&self) -> Option<u32> {
+        match self {
+            Action::Nodal { .. } | Action::Displacement { .. } => None,
+            Action::Distributed { member, .. }
+            | Action::Point { member, .. }
+            | Action::SelfWeight { member }
+            | Action::Temperature { member, .. }
+            | Action::Gradient { member, .. }
+            | Action::Pretension { member, .. } => Some(*member),
+        }
+    }
+}
+
 /// One load of one case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {

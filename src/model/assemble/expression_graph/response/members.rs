@@ -2,7 +2,7 @@
 
 use super::super::{Item, Lowering, OwnNumber, end_section};
 use crate::expression::graph::NodeId;
-use crate::model::assemble::member::{Framework, MemberNodes, loads};
+use crate::model::assemble::member::{Framework, MemberNodes};
 use crate::problem::formula::End;
 use crate::problem::structure::Shear;
 use crate::sections;
@@ -51,7 +51,7 @@ impl Lowering<'_> {
             Shear::Modulus(modulus) => self.dimension(u32::MAX, modulus),
             Shear::Poisson(ratio) => self.graph.scale(0.5 / (1.0 + ratio), young),
         });
-        let loads = loads(&mut self.graph, framework, member, set, &frame);
+        let loads = framework.statics.member_loads(&mut self.graph, framework.structure, (member, set), &frame);
         let rows = rows(&mut self.graph, &frame, declared.offset);
         let deformations = match prepared.fixed {
             true => framework.inputs(member, set).map(|input| match input {
