@@ -3,7 +3,7 @@
 //! Theorem (W. Kaplan, "A test for copositive matrices", Linear Algebra and its Applications 313, 2000): M is copositive exactly
 //! where no principal submatrix has an eigenvector with positive entries to a negative eigenvalue. Such a vector of a least
 //! support minimises sᵀMs over the unit vectors of its face, so it belongs to the submatrix's *lowest* eigenvalue; and where
-//! that is not negative, also where it is not without positive entries off the diagonal, no submatrix of it need be looked at. Indices that no negative entry ties together are tested apart,
+//! that is not negative, also where it is not once some matrix without negative entries is taken off, no submatrix of it need be looked at. Indices that no negative entry ties together are tested apart,
 //! which is exact: what stands between them only adds.
 //!
 //! The work doubles with every index in the worst case: faces are counted, and `Undecided` is an answer.
@@ -19,6 +19,10 @@ const TIE: f64 = 1e-14;
 const ZERO: f64 = 1e-9;
 /// Supports are sets of at most this many indices.
 const WIDEST: usize = 64;
+/// Steps towards a sum of a definite matrix and one without negative entries: the distance to one falls with their square.
+const STEPS: usize = 16;
+/// They aim at this lowest eigenvalue, the diagonal being 1: at 0 they would need steps without end.
+const BEYOND: f64 = 1e-3;
 /// Sweeps of the search for a vector that shows M is not copositive.
 const SWEEPS: usize = 50;
 
@@ -115,6 +119,20 @@ mod tests {
         let matrix: Vec<f64> = (0..25).map(|at| horn(at / 5, at % 5)).collect();
         assert_eq!(test(&matrix, 5, 0), Verdict::Undecided);
         assert!(matches!(test(&[-1.0], 1, 10), Verdict::Falls(_)));
+    }
+
+    #[test]
+    fn a_sum_of_a_definite_and_a_positive_matrix_needs_few_faces() {
+        // Positive entries beside the negative ones of a path: neither M nor its negative part is definite.
+        let k = 40;
+        let entry = |i: usize, j: usize| match i.abs_diff(j) {
+            0 => 1.0,
+            1 => -0.62,
+            2 => 0.5,
+            _ => 0.0,
+        };
+        let matrix: Vec<f64> = (0..k * k).map(|at| entry(at / k, at % k)).collect();
+        assert_eq!(test(&matrix, k, 100), Verdict::Copositive);
     }
 
     /// The least value over a grid of the unit simplex.

@@ -1,6 +1,6 @@
 //! The search on a matrix scaled to a unit diagonal.
 
-use super::{SWEEPS, TIE, TOLERANCE, WIDEST, ZERO};
+use super::{BEYOND, STEPS, SWEEPS, TIE, TOLERANCE, WIDEST, ZERO};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::HashSet;
 
@@ -93,11 +93,11 @@ impl Scaled {
             if self.is_above(threshold, &support, |off| off) || is_bounded() {
                 continue;
             }
-            let Some((lowest, vector)) = self.lowest(&support) else { return false };
+            let Some((lowest, vector)) = lowest(self.part(&support, |entry| entry)) else { return false };
             if lowest >= threshold {
                 continue;
             }
-            if left == 0 || support.len() > WIDEST {
+            if left == 0 {
                 return false;
             }
             left -= 1;
@@ -105,6 +105,14 @@ impl Scaled {
                 && visit(&s)
             {
                 return true;
+            }
+            // Of few indices all 2^k faces can be looked at.
+            let has_many = left.checked_ilog2().is_none_or(|most| support.len() > most as usize);
+            if threshold < 0.0 && has_many && self.is_sum(threshold, &support, &mut left) {
+                continue;
+            }
+            if support.len() > WIDEST {
+                return false;
             }
             // A minimiser over the face is this vector, or lies on a smaller face.
             for out in 0..support.len() {
@@ -153,14 +161,30 @@ impl Scaled {
         part.cholesky().is_some()
     }
 
-    /// The lowest eigenvalue over a support and its vector.
-    fn lowest(&self, support: &[usize]) -> Option<(f64, Vec<f64>)> {
-        if let [only] = support {
-            return Some((self.entries[(*only, *only)], vec![1.0]));
+    /// Whether a part, less the threshold, is found to be the sum of a definite matrix and one without negative entries, which makes it copositive
+    /// (P. H. Diananda, "On non-negative forms in real variables some or all of which are non-negative", Proc. Cambridge Philos. Soc. 58, 1962).
+    ///
+    /// The second, N, is sought by Y. Nesterov's accelerated gradient steps (Soviet Math. Doklady 27, 1983) towards the least ½‖(M − N)₋‖², whose
+    /// gradient is −(M − N)₋, the part with negative eigenvalues. Every such part costs one of the faces `left`.
+    fn is_sum(&self, threshold: f64, support: &[usize], left: &mut usize) -> bool {
+        let k = support.len();
+        let mut rest = self.part(support, |entry| entry);
+        (0..k).for_each(|at| rest[(at, at)] -= threshold);
+        let beyond = DMatrix::from_diagonal_element(k, k, BEYOND);
+        let (mut taken, mut ahead, mut weight) = (DMatrix::zeros(k, k), DMatrix::zeros(k, k), 1.0f64);
+        for _ in 0..STEPS.min(*left) {
+            *left -= 1;
+            let Some(negative) = negative_part(&rest - &ahead - &beyond) else { return false };
+            let mut next = (&ahead + negative).map(|entry: f64| entry.max(0.0));
+            next.fill_diagonal(0.0);
+            if (&rest - &next).cholesky().is_some() {
+                return true;
+            }
+            let heavier = 0.5 * (1.0 + (1.0 + 4.0 * weight * weight).sqrt());
+            ahead = &next + (&next - taken) * ((weight - 1.0) / heavier);
+            (taken, weight) = (next, heavier);
         }
-        let eigen = SymmetricEigen::try_new(self.part(support, |entry| entry), f64::EPSILON, 1000)?;
-        let (at, lowest) = eigen.eigenvalues.argmin();
-        Some((lowest, eigen.eigenvectors.column(at).iter().copied().collect()))
+        false
     }
 
     /// A vector over a support or its negative among all indices, where one has no negative entry.
@@ -173,4 +197,23 @@ impl Scaled {
         support.iter().zip(vector).for_each(|(&i, v)| s[i] = (sign * v).max(0.0));
         Some(s)
     }
+}
+
+/// The lowest eigenvalue and its vector.
+fn lowest(matrix: DMatrix<f64>) -> Option<(f64, Vec<f64>)> {
+    if matrix.len() == 1 {
+        return Some((matrix[(0, 0)], vec![1.0]));
+    }
+    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, 1000)?;
+    let (at, lowest) = eigen.eigenvalues.argmin();
+    Some((lowest, eigen.eigenvectors.column(at).iter().copied().collect()))
+}
+
+/// Σ λ·v·vᵀ over the negative eigenvalues.
+fn negative_part(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, 1000)?;
+    let scaled = DMatrix::from_fn(eigen.eigenvectors.nrows(), eigen.eigenvectors.ncols(), |i, j| {
+        eigen.eigenvectors[(i, j)] * eigen.eigenvalues[j].min(0.0)
+    });
+    Some(scaled * eigen.eigenvectors.transpose())
 }
