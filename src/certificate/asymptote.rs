@@ -7,13 +7,13 @@ use super::scales;
 use super::second_order::Active;
 use crate::certificate::Side;
 use crate::certificate::parameters::feasibility::ROUNDINGS;
-use crate::certificate::parameters::runaway::{BESIDE, ONWARDS};
+use crate::certificate::parameters::runaway::{BESIDE, NEARER, ONWARDS};
 use crate::model::{EvaluationError, Model};
 use crate::recession;
 
-/// Whether the objective is level to the last digit, though not where the variables come from: all about the point or, far out, all the way on
-/// to twice as far (about it the terms of an exponent that cancel one another may overflow at the least step). One that is analytic is then
-/// constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all that is left of it.
+/// Whether the objective is level to the last digit, though not where the variables come from: all about the point or, far out, as far again
+/// as it is from there. One that is analytic is then constant for rounding alone: it nears an asymptote, and an underflow (exp(−800)) or 1 (tanh(20)) is all
+/// that is left of it.
 pub(super) fn is_level(point: &Point<'_>) -> bool {
     let (meta, model, is_far) = (point.meta(), &point.origin.model, is_far_out(point));
     if meta.objective_is_linear || (point.sigma != 0.0 && !is_far) {
@@ -21,25 +21,45 @@ pub(super) fn is_level(point: &Point<'_>) -> bool {
     }
     let mut at_start = vec![0.0; point.x.len()];
     let is_other = model.gradient(&meta.start, &mut at_start).is_ok_and(|value| value != point.objective);
-    if !is_other {
-        return false;
-    }
-    let is_as_here = |x: &[f64]| {
-        let mut gradient = vec![0.0; x.len()];
-        let Ok(value) = model.gradient(x, &mut gradient) else { return false };
-        // Slopes up to so much of those at the start are none, and what the variables' last digits make of a value is no change: √(x² + 1) − x
-        // is nothing else far out.
-        let is_flat = |j: usize| gradient[j].abs() <= if is_far { ROUNDINGS * at_start[j].abs() } else { 0.0 };
-        let change = |moved: &[f64]| model.objective(moved).ok().map(|there| (there - value).abs());
-        (0..x.len()).filter(|&j| !meta.is_fixed(j)).all(is_flat)
-            && (value == point.objective
-                || (is_far && (value - point.objective).abs() <= recession::last_digits(meta, x, change)))
+    let beside = || [BESIDE, -BESIDE].map(|step| scales::moved(meta, point.x, &point.sizes, step)).to_vec();
+    let onwards = || {
+        let on = |way: f64| point.x.iter().zip(&meta.start).map(|(x, start)| x + way * (x - start)).collect();
+        ONWARDS.map(on).to_vec()
     };
-    if is_far {
-        let on = |way: f64| -> Vec<f64> { point.x.iter().zip(&meta.start).map(|(x, start)| x + way * (x - start)).collect() };
-        return ONWARDS.into_iter().all(|way| is_as_here(&on(way)));
-    }
-    [BESIDE, -BESIDE].into_iter().all(|step| is_as_here(&scales::moved(meta, point.x, &point.sizes, step)))
+    let is_level = |places: Vec<Vec<f64>>| is_level_at(point, places, &at_start);
+    is_other && (is_constant_about(point, is_far) || (is_far && (is_level(beside()) || is_level(onwards()))))
+}
+
+/// Whether all derivatives are 0 and the value the same beside the point. Far out «beside» may be near: where an exponent's terms cancel one another,
+/// the least step has it overflow.
+fn is_constant_about(point: &Point<'_>, is_far: bool) -> bool {
+    let is_constant = |step: f64| {
+        [step, -step].into_iter().all(|step| {
+            let (x, mut gradient) = (scales::moved(point.meta(), point.x, &point.sizes, step), vec![0.0; point.x.len()]);
+            let value = point.origin.model.gradient(&x, &mut gradient);
+            value.is_ok_and(|value| value == point.objective)
+                && gradient.iter().enumerate().all(|(j, g)| *g == 0.0 || point.meta().is_fixed(j))
+        })
+    };
+    point.sigma == 0.0 && (is_constant(BESIDE) || (is_far && NEARER.into_iter().any(is_constant)))
+}
+
+/// Whether at all of these places slopes are nothing beside those at the start, and values differ from the point's by no more than the last digits of
+/// the variables make of them: √(x² + 1) − x is nothing else far out.
+fn is_level_at(point: &Point<'_>, places: Vec<Vec<f64>>, at_start: &[f64]) -> bool {
+    let (meta, model) = (point.meta(), &point.origin.model);
+    let is_flat =
+        |gradient: &[f64]| (0..gradient.len()).all(|j| meta.is_fixed(j) || gradient[j].abs() <= ROUNDINGS * at_start[j].abs());
+    let height = |x: Vec<f64>| {
+        let mut gradient = vec![0.0; at_start.len()];
+        let value = model.gradient(&x, &mut gradient).ok().filter(|_| is_flat(&gradient))?;
+        let change = |moved: &[f64]| model.objective(moved).ok().map(|there| (there - value).abs());
+        Some((value, recession::last_digits(meta, &x, change)))
+    };
+    let heights = [point.x.to_vec()].into_iter().chain(places).map(height).collect::<Option<Vec<_>>>();
+    // What digits make of one value is chance; of several, less so.
+    let noise = heights.iter().flatten().map(|(_, noise)| *noise).fold(0.0, f64::max);
+    heights.is_some_and(|heights| heights.iter().all(|(value, _)| (value - point.objective).abs() <= noise))
 }
 
 /// The variables that have moved most from where they come from.

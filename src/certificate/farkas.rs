@@ -49,7 +49,7 @@ pub fn contradiction(
 struct Rows<'p, 'a> {
     point: &'p Point<'a>,
     convex: bool,
-    /// The larger of |x_j|, or 1 where that is 0, and what row terms there are would make of it.
+    /// The larger of |x_j| and what row terms there are would make of it; 1 where neither tells.
     size: Vec<f64>,
     /// max(|limit|, max_j |∂c_i/∂x_j·x_j|)
     terms: Vec<f64>,
@@ -67,7 +67,7 @@ impl<'p, 'a> Rows<'p, 'a> {
             }
         }
         let own = |x: f64| if x == 0.0 { 1.0 } else { x.abs() };
-        let size = point.x.iter().zip(told).map(|(&x, told)| if told.is_finite() { told.max(own(x)) } else { own(x) });
+        let size = point.x.iter().zip(told).map(|(&x, told)| if told.is_finite() { told.max(x.abs()) } else { own(x) });
         Rows { point, convex, size: size.collect(), terms }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! [`Certifier`] holds a model ready to judge many points; [`certify`] judges one.
 
+mod alternative;
 mod asymptote;
 mod candidates;
 mod elsewhere;
@@ -46,6 +47,7 @@ use second_order::{Active, Curvature, Hessian};
 
 use crate::model::{Class, EvaluationError, Model};
 use crate::recession::Ray;
+pub use alternative::contradicting;
 pub use farkas::{Contradiction, contradiction};
 pub use known_sizes::sizes_at_start;
 pub use lower_bound::lower_bound;

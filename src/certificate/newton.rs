@@ -81,16 +81,15 @@ fn in_sizes(
     if fallen < NEARLY_ALL || free.iter().any(|j| !invented[*j] && share(j) > MOVED) {
         return Newton::LeadsTo(stretched(&x));
     }
-    if lengths[0] <= LENGTH || fallen < 0.5 {
+    // ln of how much shorter each of the first steps has become on average
+    let shortening = |steps: usize| (lengths[0] / lengths[steps].max(f64::EPSILON * lengths[0])).ln() / steps as f64;
+    let (soon, on_the_whole) = (shortening(SOON), shortening(STEPS - 1));
+    if lengths[0] <= LENGTH || fallen < 0.5 || soon > SOON_SHORTENING {
         return Newton::Stays;
     }
-    // ln of how much shorter each of the first steps has become on average
-    let shortening = |steps: usize| (lengths[0] / lengths[steps].max(LENGTH)).ln() / steps as f64;
-    let (soon, on_the_whole) = (shortening(SOON), shortening(STEPS - 1));
     if on_the_whole > SHORTENING {
         // Those that lead to another point are as long as they may be until they come near it.
-        let leads_nowhere = soon > (0.5 * on_the_whole).min(SOON_SHORTENING);
-        return if leads_nowhere { Newton::Stays } else { Newton::LeadsTo(stretched(&x)) };
+        return if soon > 0.5 * on_the_whole { Newton::Stays } else { Newton::LeadsTo(stretched(&x)) };
     }
     let most = free.iter().map(share).fold(0.0, f64::max);
     Newton::Falls(free.iter().copied().filter(|j| share(j) > 1e-3 * most).collect())

@@ -129,7 +129,8 @@ parameters! {
 
     /// Finite steps along flat directions.
     higher_order {
-        /// |vᵀSv| ≤ FLAT·|v|²: followed beyond second order; an inflection may hide as near as the slope test allows.
+        /// |vᵀSv| ≤ FLAT·√(r/ε)·|v|²: followed beyond second order, r being the slope that is left of what is accepted, ε, and no less than NOISE: an
+        /// inflection of f''' ≤ 50 hides where f''² ≤ 2·50·r.
         FLAT: f64 = 1e-2;
         /// Lengths in sizes; those beyond one where all is level to the last digits up to there.
         STEPS: [f64; 15] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6];
@@ -180,8 +181,9 @@ parameters! {
     runaway {
         /// Level to the last digit BESIDE·d_j about the point, both ways, all derivatives 0: an asymptote (x^p is so for p > 107 only).
         BESIDE: f64 = 1e-3;
-        /// … or at all of x + ONWARDS·(x − start) from one that is far from where its variables come from: a minimum of even order bends up there
-        /// as much as it did at the start.
+        /// … or so about one that is far from where its variables come from.
+        NEARER: [f64; 3] = [1e-6, 1e-9, 1e-12];
+        /// Level, beside last digits, at all of x + ONWARDS·(x − start): a minimum of even order bends up there as much as it did at the start.
         ONWARDS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
         /// |vᵀSv| ≤ FLAT·|v|²: followed outwards.
         FLAT: f64 = 1e-3;
@@ -209,6 +211,8 @@ parameters! {
         TOUCH: f64 = 1e-6;
         /// Steps of conjugate gradients towards multipliers that balance.
         STEPS: usize = 60;
+        /// Rows and variables up to which contradicting multipliers are sought without a solver: one sparse factorisation for some changes of the active set each.
+        LARGEST: usize = 2_000;
         /// Propagation: limits and bounds give way by EASE·tolerance of the magnitudes around them, so that no point within it is ruled out.
         EASE: f64 = 4.0;
         /// Sweeps over all rows.

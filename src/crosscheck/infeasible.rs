@@ -14,7 +14,7 @@ use super::ledger::Ledger;
 use super::seeds::Seeds;
 use super::session::{Session, Solver};
 use super::work::{self, Allowance};
-use crate::certificate::{Certifier, contradiction, sizes_at_start};
+use crate::certificate::{Certifier, contradicting, contradiction, sizes_at_start};
 use crate::model::{Elastic, Model, Substitution, WithBounds};
 use relaxed::{Asked, Relaxed, carriers, nothing_violated, sized};
 
@@ -85,8 +85,7 @@ fn look(ledger: &Ledger<'_, '_>, near: &[f64], known: bool) -> Option<Elasticity
         },
         Least::Violation(best) => {
             let best = work.in_own_scales(&all, *best);
-            let nearby = if work.is_contradiction(&best) { None } else { work.contradiction_nearby(&all, &best.x) };
-            nearby.unwrap_or(best)
+            if work.is_contradiction(&best) { best } else { work.contradiction_nearby(&all, &best.x).unwrap_or(best) }
         }
     };
     let is_least = best.certificate.certified;
@@ -245,10 +244,12 @@ impl<'a> Work<'a> {
         best
     }
 
-    /// Where rows seem to be met only far from the start: the elastic minimum beside it, if its multipliers prove that nothing meets them
-    /// anywhere. What rounding leaves of rows so far out is no violation.
+    /// Where rows are missed by little, or seem to be met only far from the start: the elastic minimum beside it, if its multipliers, or others that the linear
+    /// rows have, prove that nothing meets them anywhere. What rounding leaves of rows so far out is no violation.
     fn contradiction_nearby(&self, rows: &[usize], z: &[f64]) -> Option<Relaxed> {
-        if !diverging::is_too_far(self.session, &self.outward(z)) {
+        let is_far = diverging::is_too_far(self.session, &self.outward(z));
+        let sought = contradicting(self.model, self.session.tolerances.constraint, self.session.clock.judging_ends());
+        if sought.is_none() && !is_far {
             return None;
         }
         self.refill();
@@ -257,7 +258,10 @@ impl<'a> Work<'a> {
         let start = &self.model.meta().start;
         let boxed = WithBounds::about_start(self.model, |j| start[j].abs() + diverging::TOO_FAR * sizes[j]);
         let relaxed = self.relax_model(&boxed, rows, start, Asked::Multipliers)?;
-        self.is_contradiction(&relaxed).then_some(relaxed)
+        if self.is_contradiction(&relaxed) {
+            return Some(relaxed);
+        }
+        sought.map(|sought| relaxed.with_multipliers(sought.multipliers))
     }
 
     /// The elastic minimum over these rows by one backend.

@@ -35,7 +35,8 @@ pub(in crate::certificate) fn find(
         return Ok(None);
     }
     let mut kkt = Kkt::new(point, hessian, &free, &strict)?;
-    let flat = if kkt.is_flat(FLAT)? { kkt.flat_directions(most, FLAT)? } else { Vec::new() };
+    let flatness = flatness(point, active.multipliers, &choice, tolerances.optimality);
+    let flat = if kkt.is_flat(flatness)? { kkt.flat_directions(most, flatness)? } else { Vec::new() };
     if flat.is_empty() && inwards.is_empty() {
         return Ok(None);
     }
@@ -48,6 +49,21 @@ pub(in crate::certificate) fn find(
     }
     walk.may_be_left.fill(true);
     Ok(walk.lower_point(inwards.iter().take(most).chain(&flat)))
+}
+
+/// Up to which curvature a direction counts as flat. Where f falls by a slope r along one and bends up by κ, there is a minimum ahead if κ² ≥ 2·f'''·r;
+/// FLAT is κ for the largest third derivative that is thought of and the largest accepted r, and less is enough for the slope that is left.
+fn flatness(point: &Point<'_>, multipliers: &Multipliers, choice: &Choice, accepted: f64) -> f64 {
+    let loose = choice.loose_variables();
+    let largest =
+        |slopes: &Vec<f64>| loose.iter().map(|&j| (slopes[j] * point.sizes[j]).abs()).fold(0.0, f64::max) / point.scale();
+    let slope = slopes(point, multipliers, choice).iter().map(largest).fold(NOISE, f64::max);
+    FLAT * (slope / accepted).sqrt().min(1.0)
+}
+
+/// ∇f + Jᵀy, with all multipliers and without those of rows that are weakly active, or nearly: these cannot be told from 0.
+fn slopes(point: &Point<'_>, multipliers: &Multipliers, choice: &Choice) -> [Vec<f64>; 2] {
+    [&multipliers.rows, &without_weak(choice, multipliers)].map(|y| point.row_gradient(y))
 }
 
 /// The same along one direction: whether it leads to a lower point indeed.
@@ -92,7 +108,7 @@ struct Walk<'w, 'p> {
     /// The objective at the point, or its Lagrangian where that is lower, and the objective with what all distances to limits are
     /// worth: going to a limit that is missed by a little is neither a fall nor a rise.
     here: (f64, f64),
-    /// ∇f + Jᵀy, with all multipliers and without those of rows that are weakly active, or nearly: these cannot be told from 0.
+    /// See [`slopes`].
     slopes: [Vec<f64>; 2],
 }
 
@@ -122,7 +138,6 @@ impl<'w, 'p> Walk<'w, 'p> {
         let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
         let worth = worst_complementarity(point, multipliers).1 * point.scale();
         let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
-        let slopes = [&multipliers.rows, &without_weak(choice, multipliers)].map(|y| point.row_gradient(y));
         Ok(Walk {
             point,
             multipliers,
@@ -135,7 +150,7 @@ impl<'w, 'p> Walk<'w, 'p> {
             may_be_left,
             kkt,
             here,
-            slopes,
+            slopes: slopes(point, multipliers, choice),
         })
     }
 

@@ -20,6 +20,12 @@ pub(super) struct Relaxed {
 }
 
 impl Relaxed {
+    /// The same point with multipliers from elsewhere, of which all that are not 0 conflict.
+    pub(super) fn with_multipliers(self, multipliers: Vec<f64>) -> Relaxed {
+        let carriers = multipliers.iter().enumerate().filter(|(_, y)| **y != 0.0).map(|(row, &y)| (row, y > 0.0)).collect();
+        Relaxed { multipliers, carriers, ..self }
+    }
+
     pub(super) fn is_better(&self, other: &Relaxed) -> bool {
         (other.certificate.certified, self.violation) < (self.certificate.certified, other.violation)
     }
