@@ -38,9 +38,11 @@ impl<'a> Engine<'a> {
     pub fn new(model: Source<'a>, beginning: InitialPoint<'_>) -> Result<Self, EvaluationError> {
         let state = State::at_start(model, beginning)?;
         let is_large = state.form.is_large();
+        // Equilibrium couples design and displacements by their products: such a problem is not convex anywhere near its start.
+        let has_states = state.form.model.meta().states.is_some();
         Ok(Engine {
             globalization: Globalization::new(state.iterate.violation()),
-            predictor: Predictor::new(is_large),
+            predictor: Predictor::new(is_large && !has_states),
             trial_polish: TrialPolish::new(is_large),
             escapes: Escapes::default(),
             restoration: None,
