@@ -73,6 +73,8 @@ pub enum What {
     Stress(f64, Arc<str>),
     /// Shear stress there; torsion's share with this sign.
     Shear(f64, Arc<str>, f64),
+    /// Stress at a point of a prismatic rib's section by a unit of an internal force (shear stress by shear forces and torque), or its opposite.
+    PerForce(Force, Arc<str>, bool),
     /// Work of the loads: pᵀu over free directions.
     Compliance,
     /// A rib's mass by its density (∫A dx).
@@ -218,7 +220,7 @@ impl Formula {
     /// Whether a response that needs an analysis stands inside, seen through definitions; `known` keeps what was found of these.
     pub(super) fn analyses(&self, problem: &super::Problem, known: &mut [Option<bool>]) -> bool {
         match self {
-            Formula::Response(response) => !matches!(response.what, What::Mass | What::Length),
+            Formula::Response(response) => !matches!(response.what, What::Mass | What::Length | What::PerForce(..)),
             Formula::Definition(definition) => {
                 let at = *definition as usize;
                 if let Some(known) = known[at] {

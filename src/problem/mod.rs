@@ -3,13 +3,14 @@
 //! Laid out column by column, so that a million ribs fit: strings and formulas are stored once and pointed at.
 
 pub mod affine;
-pub mod axial;
+mod axial;
 pub mod cells;
 pub mod checks;
 
 mod collections;
 mod constraint;
 mod data;
+mod determinate;
 pub mod evaluate;
 pub mod existence;
 pub mod formula;
@@ -29,6 +30,7 @@ pub mod profile;
 pub mod range;
 pub mod ratio;
 pub mod resolve;
+mod rewritten;
 pub mod settings;
 pub mod statics;
 pub mod structure;

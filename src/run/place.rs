@@ -82,7 +82,7 @@ impl Found {
 
     fn note(&mut self, response: &Response) {
         let (station, point) = match &response.what {
-            What::Mass | What::Length => return,
+            What::Mass | What::Length | What::PerForce(..) => return,
             What::Stress(station, point) | What::Shear(station, point, _) => (Some(*station), Some(point)),
             What::Deflection(_, station) | What::Sag(_, station, _) | What::Force(_, station) => (Some(*station), None),
             _ => (None, None),

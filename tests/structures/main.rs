@@ -1,5 +1,6 @@
 //! Structures against closed forms.
 
+mod determinate;
 mod models;
 mod modes;
 mod tasks;

@@ -176,7 +176,8 @@ impl Judge<'_> {
 
     fn geometric_row(&self, constraint: &Constraint) -> Result<Result<GeometricRow, String>, AssemblyError> {
         let name = format!("constraint {}", constraint.name);
-        let (ratio, limit) = match self.problem.ratio(&constraint.left, &constraint.right) {
+        let right = self.one_limit(constraint)?;
+        let (ratio, limit) = match self.problem.ratio(&constraint.left, &right) {
             Ratio::Row(ratio, limit) => (ratio, limit),
             Ratio::NotNegative(formula) => return self.always_met(constraint, &formula),
             Ratio::None => return Ok(Err(format!("{name}: it holds a sum of positive terms below zero"))),
@@ -197,6 +198,20 @@ impl Judge<'_> {
         }
         let monomial = bend.log_curvature == crate::expression::structure::Curvature::Affine;
         Ok(Ok(GeometricRow { ratio, limit, monomial }))
+    }
+
+    /// The limits without one that the left side cannot reach, both being proved to have one sign between the variables' bounds.
+    fn one_limit(&self, constraint: &Constraint) -> Result<Limit, AssemblyError> {
+        let Limit::Between(lower, upper) = &constraint.right else { return Ok(constraint.right.clone()) };
+        let opposite = |formula: &Formula| Formula::Unary(Unary::Negate, Box::new(formula.clone()));
+        let is_non_negative = |formula: &Formula| Ok(self.rows(constraint, formula)?.is_non_negative());
+        if is_non_negative(&opposite(lower))? && is_non_negative(&constraint.left)? {
+            return Ok(Limit::AtMost(upper.clone()));
+        }
+        if is_non_negative(upper)? && is_non_negative(&opposite(&constraint.left))? {
+            return Ok(Limit::AtLeast(lower.clone()));
+        }
+        Ok(constraint.right.clone())
     }
 
     /// The row says that `formula` is not negative: it has no place in a geometric program, unless it is proved that it never is

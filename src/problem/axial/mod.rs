@@ -1,48 +1,19 @@
 //! Trusses as problems in the axial forces of their bars.
 //!
-//! Equilibrium of the free directions is Bᵀ·N = p, whatever the areas are. Where B is square and regular (a statically *determinate* truss) the forces are numbers, and
-//! every response is an explicit formula of the areas: σ = N/A, u = Σ n·N·L/(E·A) by the unit load theorem. Otherwise the forces of the elastic
-//! truss are one solution among many: with them as free variables, and without the rows that ask for more than forces, the minimum is a
+//! Equilibrium of the free directions is Bᵀ·N = p, whatever the areas are. The forces of the elastic truss are one solution among many: with them as free
+//! variables, and without the rows that ask for more than forces, the minimum is a
 //! *lower bound* of that of the elastic truss (the lower-bound theorem of limit analysis; Dorn, Gomory and Greenberg, *Automatic design of optimal structures*,
 //! Journal de Mécanique 3, 1964).
 
-mod terms;
 mod truss;
 mod writer;
 
-use nalgebra::DMatrix;
-
+use super::rewritten::Rewriting;
 use super::{Constraint, Formula, Origin, Problem};
 use truss::Truss;
-use writer::{Forces, Writer};
-
-/// Forces and displacements by unit loads below this share of the largest are rounding.
-const ROUNDING: f64 = 1e-12;
+use writer::Writer;
 
 impl Problem {
-    /// The problem of a statically determinate truss as formulas of its areas; `None` where it is none, or where something is asked that is
-    /// no such formula.
-    pub fn determinate(&self) -> Option<Problem> {
-        let truss = Truss::of(self)?;
-        if !self.analyses() || truss.free.len() != truss.bars.len() {
-            return None;
-        }
-        let equilibrium = truss.equilibrium();
-        let inverse = equilibrium.clone().try_inverse()?;
-        let loads = DMatrix::from_fn(truss.free.len(), truss.structure.cases.len(), |row, case| truss.load(case, row));
-        let cleaned = |matrix: DMatrix<f64>| {
-            let largest = matrix.amax();
-            matrix.map(|value| if value.abs() <= ROUNDING * largest { 0.0 } else { value })
-        };
-        let forces = Forces::Known { of_cases: cleaned(&inverse * loads), of_units: cleaned(inverse) };
-        let writer = Writer { truss: &truss, forces };
-        let objective = writer.formula(&self.objective)?;
-        let definitions = self.definitions.iter().map(|(name, formula)| Some((name.clone(), writer.formula(formula)?)));
-        let definitions = definitions.collect::<Option<_>>()?;
-        let constraints = self.constraints.iter().map(|constraint| writer.rows(constraint)).collect::<Option<Vec<_>>>()?.concat();
-        Some(Problem { objective, definitions, constraints, ..self.clone() })
-    }
-
     /// The problem with the forces of a truss's bars as variables that equilibrium alone holds: no design that meets the limits is below its
     /// minimum. `None` for other structures.
     pub fn with_free_forces(&self) -> Option<Problem> {
@@ -55,7 +26,7 @@ impl Problem {
     fn in_free_forces(&self) -> Option<Problem> {
         let truss = Truss::of(self)?;
         let first = self.variables.lower.len() as u32;
-        let writer = Writer { truss: &truss, forces: Forces::Open(first) };
+        let writer = Writer { truss: &truss, first };
         let objective = writer.formula(&self.objective)?;
         // What cannot be said in forces is left out, with every row that uses it.
         let definitions = self

@@ -1,9 +1,7 @@
-//! Trusses whose forces equilibrium knows or bounds: their bars and equations.
+//! Trusses whose forces equilibrium bounds: their bars and equations.
 
-use nalgebra::DMatrix;
-
-use super::terms::scaled;
 use crate::expression::operators::Fold;
+use crate::problem::rewritten::scaled;
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
 use crate::problem::{Constraint, Dimension, Formula, Limit, Problem, Scope};
@@ -61,23 +59,11 @@ impl<'a> Truss<'a> {
         (if member.start == node { at(0) } else { 0.0 }) + (if member.end == node { at(1) } else { 0.0 })
     }
 
-    pub fn equilibrium(&self) -> DMatrix<f64> {
-        DMatrix::from_fn(self.free.len(), self.bars.len(), |row, at| {
-            let (node, direction) = self.free[row];
-            self.pull(self.bars[at], node, direction)
-        })
-    }
-
-    pub fn load(&self, case: usize, row: usize) -> f64 {
-        let (node, direction) = self.free[row];
-        self.statics.nodal_load(self.structure, case as u32, node, direction)
-    }
-
     /// Equilibrium as rows over the forces.
     pub fn equations(&self, first: u32) -> Vec<Constraint> {
         let mut rows = Vec::new();
         for case in 0..self.structure.cases.len() {
-            for (row, &(node, direction)) in self.free.iter().enumerate() {
+            for &(node, direction) in &self.free {
                 let force = |at: usize| Formula::Variable(first + (case * self.bars.len() + at) as u32);
                 let pulls = self.bars.iter().enumerate().map(|(at, &bar)| (at, self.pull(bar, node, direction)));
                 let terms = pulls.filter(|(_, pull)| *pull != 0.0).map(|(at, pull)| scaled(pull, force(at))).collect();
@@ -88,7 +74,7 @@ impl<'a> Truss<'a> {
                     text: String::new(),
                     scope: Scope::Once,
                     left: Formula::Fold(Fold::Sum, terms),
-                    right: Limit::Equal(Formula::Constant(self.load(case, row))),
+                    right: Limit::Equal(Formula::Constant(self.statics.nodal_load(self.structure, case as u32, node, direction))),
                 });
             }
         }

@@ -4,14 +4,15 @@ mod members;
 mod modes;
 
 use super::{Context, Item, Lowering, OwnNumber, end_section};
-use crate::expression::graph::NodeId;
+use crate::expression::graph::{Graph, Node, NodeId};
+use crate::expression::operators::Binary;
 use crate::model::assemble::member::{Framework, MemberNodes};
 use crate::problem::formula::{End, Response, Subject, What};
 use crate::problem::statics::position;
 use crate::sections;
 use crate::structure::algebra::Algebra;
 use crate::structure::axes::Frame;
-use crate::structure::beam::{Bending, Tapered};
+use crate::structure::beam::{Bending, Force, Tapered};
 use crate::structure::deformation::{BASIC, along as along_axis, support_rows};
 
 impl Lowering<'_> {
@@ -38,6 +39,9 @@ impl Lowering<'_> {
             (What::Buckling(_) | What::Frequency(_) | What::Cut(_), ..) => self.eigenvalue(framework, response),
             (What::Modal(energy, piece), _, Some(member)) => self.modal(framework, member, response.set, *energy, *piece),
             (What::Compliance, ..) => self.compliance(framework, response.set),
+            (What::PerForce(force, point, opposite), _, Some(member)) => {
+                self.per_force(framework, member, (*force, point), *opposite)
+            }
             (What::Mass, _, Some(member)) => self.mass(framework, member, response.subject == Subject::Own),
             (what, _, Some(member)) => self.of_member(framework, member, response.set, what),
             _ => nothing(self),
@@ -194,6 +198,39 @@ impl Lowering<'_> {
         self.graph.sum(&parts)
     }
 
+    /// The stress of a unit force at a point of a prismatic member's section, or its opposite: 1/A, −Y/Ix, −X/Iy, and what the kind says of shear.
+    fn per_force(&mut self, framework: Framework, member: u32, (force, point): (Force, &str), opposite: bool) -> NodeId {
+        let section = end_section(self.problem, framework.member(member).0.rib, End::From);
+        let dimensions = self.named_section(section);
+        let form = sections::form(self.problem.sections.form[section as usize]);
+        let given = sections::Given { form, dimensions: &dimensions, outline: self.problem.outline(section) };
+        let graph = &mut self.graph;
+        let Some(kind) = sections::kind(form.kind) else { return graph.constant(f64::NAN) };
+        let Some(fibre) = kind.fibre(graph, &given, point) else { return graph.constant(f64::NAN) };
+        let over = |graph: &mut Graph, distance: NodeId, name: &str| match kind.property(graph, &given, name) {
+            Some(value) => Algebra::divide(graph, distance, value),
+            None => graph.constant(f64::NAN),
+        };
+        // σ = −My·Y/Ix − Mz·X/Iy
+        let is_negative = matches!(force, Force::My | Force::Mz) != opposite;
+        let distance = match force {
+            Force::N => Some(graph.constant(1.0)),
+            Force::My => Some(fibre.y),
+            Force::Mz => Some(fibre.x),
+            Force::Vy => fibre.per_vy,
+            Force::Vz => fibre.per_vz,
+            Force::T => fibre.per_torque,
+        };
+        let Some(distance) = distance else { return graph.constant(0.0) };
+        let distance = if is_negative { negated(graph, distance) } else { distance };
+        match force {
+            Force::N => over(graph, distance, "A"),
+            Force::My => over(graph, distance, "Ix"),
+            Force::Mz => over(graph, distance, "Iy"),
+            Force::Vy | Force::Vz | Force::T => distance,
+        }
+    }
+
     /// Density times ∫A dx.
     fn mass(&mut self, framework: Framework, member: u32, own: bool) -> NodeId {
         let (declared, _) = framework.member(member);
@@ -214,4 +251,16 @@ impl Lowering<'_> {
         let volume = self.graph.multiply(length, mean);
         self.graph.multiply(density, volume)
     }
+}
+
+/// −node, as −c·x where it is c·x: so that its sign is seen.
+fn negated(graph: &mut Graph, node: NodeId) -> NodeId {
+    if let Node::Binary(Binary::Multiply, left, right) = graph.node(node) {
+        for (factor, other) in [(left, right), (right, left)] {
+            if let Some(value) = graph.as_constant(factor) {
+                return Algebra::scale(graph, -value, other);
+            }
+        }
+    }
+    Algebra::scale(graph, -1.0, node)
 }
