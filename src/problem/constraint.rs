@@ -20,6 +20,8 @@ pub struct Constraint {
     pub left: Formula,
     /// Right side. Where it has no variables its value is the row's limit.
     pub right: Limit,
+    /// What both sides asked of the structure before they were written in what that follows from; empty where nothing was.
+    pub asked: Vec<Formula>,
 }
 
 impl Constraint {
@@ -28,11 +30,17 @@ impl Constraint {
         std::iter::once(&self.left).chain(self.right.formulas())
     }
 
+    /// The same as they were asked for.
+    pub fn asked(&self) -> impl Iterator<Item = &Formula> {
+        let written = self.asked.is_empty().then(|| self.formulas());
+        self.asked.iter().chain(written.into_iter().flatten())
+    }
+
     /// Rows whose values are asked for: without a limit, a place or a text.
     pub fn unlimited(name: impl Into<String>, scope: Scope, left: Formula) -> Constraint {
         let right = Limit::AtMost(Formula::Constant(f64::INFINITY));
         let (place, text, detail) = (String::new(), String::new(), Box::default());
-        Constraint { name: name.into(), detail, place, text, scope, left, right }
+        Constraint { name: name.into(), detail, place, text, scope, left, right, asked: Vec::new() }
     }
 }
 

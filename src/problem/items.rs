@@ -96,6 +96,7 @@ mod tests {
             scope: Scope::Ribs(vec![5, 7]),
             left: Formula::Definition(0),
             right: Limit::AtMost(Formula::RibVolume(2)),
+            asked: Vec::new(),
         };
         let named = constraint.named(&problem);
         assert_eq!((named.sections, named.ribs), ([3].into(), [2].into()));

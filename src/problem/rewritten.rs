@@ -28,7 +28,8 @@ pub(super) trait Rewriting {
                 Limit::Equal(value) => Limit::Equal(self.formula(value)?),
                 Limit::Between(lower, upper) => Limit::Between(self.formula(lower)?, self.formula(upper)?),
             };
-            Some(Constraint { right, left: self.formula(&one.left)?, ..one })
+            let asked = one.formulas().cloned().collect();
+            Some(Constraint { right, left: self.formula(&one.left)?, asked, ..one })
         };
         let rows: Vec<Constraint> = (0..constraint.scope.rows()).map(one).collect::<Option<_>>()?;
         // A row that speaks of no variable holds, and says nothing then, or never does, and the analysis tells.

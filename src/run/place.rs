@@ -12,7 +12,7 @@ pub(super) fn of(problem: &Problem, constraint: &Constraint) -> Place {
     let Some(structure) = problem.structure.as_deref() else { return Place::default() };
     let mut found = Found::default();
     let mut definitions = vec![false; problem.definitions.len()];
-    for formula in constraint.formulas() {
+    for formula in constraint.asked() {
         found.look(formula, problem, &mut definitions);
     }
     let case = only(&found.sets).map_or(String::new(), |&set| structure.load_set_name(set).to_owned());

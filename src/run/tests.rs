@@ -30,6 +30,7 @@ fn rib() -> Problem {
         scope: Scope::Once,
         left: Formula::SectionProperty(0, Property("Ix".into())),
         right: Limit::AtLeast(Formula::Constant(1e-4)),
+        asked: Vec::new(),
     };
     Problem {
         title: "One rib".into(),

@@ -102,7 +102,7 @@ impl Assembly<'_> {
             self.choice = Default::default();
             for (name, left, right) in rows {
                 let (place, text, detail) = (place.clone(), require.text.clone(), detail.clone());
-                let row = Constraint { name, detail, place, text, scope: scope.clone(), left, right };
+                let row = Constraint { name, detail, place, text, scope: scope.clone(), left, right, asked: Vec::new() };
                 match &scope {
                     Scope::RibGroups(groups) if row.left.is_of_line() => self.by_line(&row, groups, entry),
                     _ => self.problem.constraints.push(row),

@@ -75,6 +75,7 @@ impl<'a> Truss<'a> {
                     scope: Scope::Once,
                     left: Formula::Fold(Fold::Sum, terms),
                     right: Limit::Equal(Formula::Constant(self.statics.nodal_load(self.structure, case as u32, node, direction))),
+                    asked: Vec::new(),
                 });
             }
         }

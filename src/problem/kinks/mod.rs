@@ -46,6 +46,7 @@ impl Problem {
             scope: Scope::Once,
             left: Formula::default(),
             right: Limit::AtMost(Formula::default()),
+            asked: Vec::new(),
         };
         restating.problem.objective = restating.restated(&objective, upward, &place);
         for constraint in std::mem::take(&mut restating.problem.constraints) {

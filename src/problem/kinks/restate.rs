@@ -65,6 +65,7 @@ impl Restating {
                 scope: Scope::Once,
                 left: Formula::default(),
                 right: Limit::AtMost(Formula::default()),
+                asked: Vec::new(),
             },
             problem,
         }

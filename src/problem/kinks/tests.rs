@@ -40,6 +40,7 @@ fn once(left: Formula, right: Limit) -> Problem {
         scope: Scope::Once,
         left,
         right,
+        asked: Vec::new(),
     };
     Problem { constraints: vec![constraint], ..problem(Formula::Constant(0.0), -1.0, 1.0) }.without_kinks()
 }

@@ -172,7 +172,16 @@ impl Assembly<'_> {
         let (names, count) = (names.collect(), items.members.len());
         for (name, left, right) in found {
             let (detail, place, text) = (row.detail.as_str().into(), self.spoken(entry.place), row.short.clone());
-            self.problem.constraints.push(Constraint { name, detail, place, text, scope: scope.clone(), left, right });
+            self.problem.constraints.push(Constraint {
+                name,
+                detail,
+                place,
+                text,
+                scope: scope.clone(),
+                left,
+                right,
+                asked: Vec::new(),
+            });
         }
         check.note(CheckRow { clause: row.clause, short: row.short, names: row.names, items: names, count });
     }

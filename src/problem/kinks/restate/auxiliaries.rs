@@ -57,6 +57,7 @@ impl Restating {
             scope: Scope::Once,
             left,
             right,
+            asked: Vec::new(),
         }
     }
 
