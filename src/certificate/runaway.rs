@@ -159,7 +159,8 @@ fn follow(
     let valley = Valley::new(site);
     let both =
         directions.iter().flat_map(|direction| [1.0, -1.0].map(|way| direction.iter().map(|v| way * v).collect::<Vec<f64>>()));
-    both.into_iter().find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
+    let mut within_time = both.into_iter().take_while(|_| !point.is_over());
+    within_time.find_map(|direction| valley.runs_off(&direction).map(|fall| (direction, fall)))
 }
 
 /// Rows with the limits they are held to: of several whose gradients point the same way the one that is missed most, or the equality.
