@@ -247,9 +247,8 @@ impl<'a> Work<'a> {
     /// Where rows are missed by little, or seem to be met only far from the start: the elastic minimum beside it, if its multipliers, or others that the linear
     /// rows have, prove that nothing meets them anywhere. What rounding leaves of rows so far out is no violation.
     fn contradiction_nearby(&self, rows: &[usize], z: &[f64]) -> Option<Relaxed> {
-        let is_far = diverging::is_too_far(self.session, &self.outward(z));
         let sought = contradicting(self.model, self.session.tolerances.constraint, self.session.clock.judging_ends());
-        if sought.is_none() && !is_far {
+        if sought.is_none() && !diverging::is_too_far(self.session, &self.outward(z)) {
             return None;
         }
         self.refill();

@@ -209,8 +209,8 @@ fn from_infeasible(ledger: &mut Ledger<'_, '_>, mut answers: Vec<Answer>) -> Out
 fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>, Conflict)> {
     let session = ledger.session;
     let certificate = best.certificate.as_ref()?;
-    let is_suspect = diverging::is_too_far(session, &best.solution.x) || certificate.primal_infeasibility > LAST_DIGITS;
-    if !(certificate.multipliers_not_unique && is_suspect) {
+    let is_suspect = || diverging::is_too_far(session, &best.solution.x) || certificate.primal_infeasibility > LAST_DIGITS;
+    if !(certificate.multipliers_not_unique && is_suspect()) {
         return None;
     }
     proved_infeasible(ledger)

@@ -55,10 +55,7 @@ impl Lifted {
         let (structure, statics) = prepared(problem);
         let own = problem.variables.lower.len();
         let wanted = eigenvalues(problem);
-        let directions: Vec<(u32, u8)> = (0..structure.nodes.names.len() as u32)
-            .flat_map(|node| (0..6u8).map(move |direction| (node, direction)))
-            .filter(|&(node, direction)| statics.is_free(node, direction.into()))
-            .collect();
+        let directions: Vec<(u32, u8)> = statics.free_directions().map(|(node, direction)| (node, direction as u8)).collect();
         let forces = assemble(&Arc::new(equations::forces_problem(problem, structure, statics)))?;
         let rows = assemble(&Arc::new(equations::rows_problem(problem, structure, statics, wanted.clone())))?;
         let first_row = rows.meta().rows();

@@ -162,6 +162,14 @@ impl Statics {
     }
 }
 
+impl Statics {
+    /// Node and direction of every displacement that is free.
+    pub fn free_directions(&self) -> impl Iterator<Item = (u32, usize)> + '_ {
+        let all = (0..self.exists.len() as u32).flat_map(|node| (0..6).map(move |direction| (node, direction)));
+        all.filter(|&(node, direction)| self.is_free(node, direction))
+    }
+}
+
 impl Prepared {
     /// Inputs of its own: its deformations, none where it deforms by its nodes' displacements.
     fn width(&self) -> usize {
@@ -207,19 +215,10 @@ fn prepare(problem: &Problem, structure: &Structure, member: &super::structure::
         (false, true) => 1,
         (false, false) => structure.buckling_pieces.max(1),
     };
-    let by_forces = fixed && !member.pinned && has_constant_moduli(structure, member.material);
+    let by_forces = fixed && !member.pinned && structure.has_constant_moduli(member.material);
     let grading = graded(steepest(problem, member.rib));
     let (loads, first_input, first_piece) = (Vec::new(), 0, 0);
     Prepared { rule, frame, rows, components, unhinged, pieces, first_piece, grading, fixed, by_forces, loads, first_input }
-}
-
-/// Whether E and G are numbers.
-fn has_constant_moduli(structure: &Structure, material: u32) -> bool {
-    let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
-    structure.materials.get(material as usize).is_some_and(|material| {
-        constant(&material.young)
-            && !matches!(&material.shear, Some(super::structure::Shear::Modulus(modulus)) if !constant(modulus))
-    })
 }
 
 /// Basic forces that neither a hinge releases nor a plane leaves without a displacement to work on.

@@ -168,6 +168,14 @@ pub struct Hinges {
     pub mz: bool,
 }
 
+impl Member {
+    /// What of a row over the twelve displacements of its ends belongs to a direction of a node.
+    pub fn at_node(&self, row: &[f64; 12], node: u32, direction: usize) -> f64 {
+        let at = |end: usize, own: u32| if own == node { row[6 * end + direction] } else { 0.0 };
+        at(0, self.start) + at(1, self.end)
+    }
+}
+
 impl Structure {
     /// A number of a material, where it is one: E, G, nu, density, alpha, or one of its own.
     pub fn material_number(&self, material: u32, name: &str) -> Option<f64> {
@@ -187,6 +195,19 @@ impl Structure {
             "alpha" => material.expansion,
             _ => material.data.iter().find(|(known, _)| &**known == name).map(|(_, value)| *value),
         }
+    }
+
+    /// Whether E and G of a material are numbers.
+    pub fn has_constant_moduli(&self, material: u32) -> bool {
+        let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
+        self.materials.get(material as usize).is_some_and(|material| {
+            constant(&material.young) && !matches!(&material.shear, Some(Shear::Modulus(modulus)) if !constant(modulus))
+        })
+    }
+
+    /// Whether the ground gives way by springs anywhere.
+    pub fn has_springs(&self) -> bool {
+        self.supports.iter().any(|support| support.springs.iter().any(|&spring| spring != 0.0))
     }
 
     /// Number of cases and combinations.

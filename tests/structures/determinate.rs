@@ -1,37 +1,15 @@
 //! Structures whose forces equilibrium alone knows: formulas of their sections, which may be geometric programs.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
 use ribopt::certificate::Extent;
 use ribopt::crosscheck::{Outcome, Status};
-use ribopt::model::{Class, Model, assemble_any};
-use ribopt::problem::Problem;
+use ribopt::model::Class;
 use ribopt::run::solve::outcome;
 
 use super::*;
 
-fn problem(name: &str, text: &str) -> Problem {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("determinate");
-    fs::create_dir_all(&folder).unwrap();
-    let file = folder.join(format!("{name}.toml"));
-    fs::write(&file, text).unwrap();
-    ribopt::input::read(&file).unwrap_or_else(|mistakes| panic!("{mistakes}")).problem
-}
-
-fn rows(model: &dyn Model, x: &[f64]) -> HashMap<String, f64> {
-    let mut values = vec![0.0; model.meta().rows()];
-    model.constraints(x, &mut values).unwrap();
-    values.into_iter().enumerate().map(|(i, value)| (model.meta().names.row(i), value)).collect()
-}
-
 /// Every row that is written out is the row of the analysis. Returns how many there are.
 fn compared(name: &str, text: &str, x: &[f64]) -> usize {
-    let problem = problem(name, text);
-    let explicit = assemble_any(&Arc::new(problem.determinate().unwrap_or_else(|| panic!("{name}: determinate")))).unwrap();
-    let analysed = assemble_any(&Arc::new(problem)).unwrap();
-    assert!(explicit.analysis().is_none() && analysed.analysis().is_some());
-    let (explicit, analysed) = (rows(explicit.model(), x), rows(analysed.model(), x));
+    let [explicit, analysed] = both_ways(problem("determinate", name, text), x);
     for (row, value) in &explicit {
         let size = value.abs() + 1e-6 * analysed.values().fold(0.0, |most: f64, value| most.max(value.abs()));
         assert!((value - analysed[row]).abs() <= 1e-9 * size, "{name}: {row}: {value}, analysed {}", analysed[row]);
@@ -227,13 +205,13 @@ fn others_are_no_such_formulas() {
     let sections = rectangle("r", 0.5, 0.2) + &rectangle("s", 0.5, 0.15);
     let limits = "[[constraints]]\nname = \"stress\"\nfor = \"ribs\"\nrequire = \"stress(P) <= 2e4\"\n";
     let uniform = cantilever(3.0, &sections, "section = \"r\"", "depth = \"r.h\"") + limits;
-    assert!(problem("uniform", &uniform).determinate().is_some());
+    assert!(problem("determinate", "uniform", &uniform).determinate().is_some());
     let tapered = cantilever(3.0, &sections, "from = \"r\"\nto = \"s\"", "depth = \"r.h\"") + limits;
-    assert!(problem("tapered", &tapered).determinate().is_none());
+    assert!(problem("determinate", "tapered", &tapered).determinate().is_none());
     let propped = uniform.replace("a = \"fixed\"", "a = \"fixed\"\nb = [\"z\"]");
-    assert!(problem("propped", &propped).determinate().is_none());
+    assert!(problem("determinate", "propped", &propped).determinate().is_none());
     let heavy = uniform.replace("plane =", "gravity = [0, -1]\nplane =") + "[[loads]]\ncase = \"P\"\nself_weight = true\n";
-    assert!(problem("heavy", &heavy).determinate().is_none());
+    assert!(problem("determinate", "heavy", &heavy).determinate().is_none());
     let buckling = uniform + "[[constraints]]\nname = \"stable\"\nrequire = \"buckling(P) >= 2\"\n";
-    assert!(problem("buckling", &buckling).determinate().is_none());
+    assert!(problem("determinate", "buckling", &buckling).determinate().is_none());
 }

@@ -7,19 +7,46 @@ mod tasks;
 mod trusses;
 mod unchanged;
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use ribopt::model::assemble_any;
+use ribopt::problem::Problem;
 use ribopt::run::Subject;
 use ribopt::run::analyse::{Analysis, analyse};
 
-/// A problem file of its own folder, read.
-fn subject(name: &str, text: &str) -> Subject {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("structures");
+/// A problem file in a folder of these tests.
+fn file(folder: &str, name: &str, text: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
     fs::create_dir_all(&folder).unwrap();
     let file = folder.join(format!("{name}.toml"));
     fs::write(&file, text).unwrap();
-    Subject::read(&file, &[]).unwrap_or_else(|error| panic!("{name}: {error}"))
+    file
+}
+
+/// The same, read.
+fn subject(name: &str, text: &str) -> Subject {
+    Subject::read(&file("structures", name, text), &[]).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// The problem of one.
+fn problem(folder: &str, name: &str, text: &str) -> Problem {
+    ribopt::input::read(&file(folder, name, text)).unwrap_or_else(|mistakes| panic!("{mistakes}")).problem
+}
+
+/// The values of a determinate problem's rows by name, written out in forces and analysed.
+fn both_ways(problem: Problem, x: &[f64]) -> [HashMap<String, f64>; 2] {
+    let explicit = assemble_any(&Arc::new(problem.determinate().expect("determinate"))).unwrap();
+    let analysed = assemble_any(&Arc::new(problem)).unwrap();
+    assert!(explicit.analysis().is_none() && analysed.analysis().is_some());
+    [explicit, analysed].map(|assembled| {
+        let model = assembled.model();
+        let mut values = vec![0.0; model.meta().rows()];
+        model.constraints(x, &mut values).unwrap();
+        values.into_iter().enumerate().map(|(i, value)| (model.meta().names.row(i), value)).collect()
+    })
 }
 
 fn analysed(name: &str, text: &str) -> Analysis {

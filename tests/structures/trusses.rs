@@ -1,26 +1,14 @@
 //! Trusses with more than the general method: bars that vanish, forces that equilibrium alone knows, bounds below every design.
 
-use std::collections::HashMap;
-use std::fs;
-use std::path::PathBuf;
-use std::sync::Arc;
-
 use ribopt::certificate::Extent;
 use ribopt::crosscheck::{Outcome, Status};
-use ribopt::model::{Class, Model, assemble_any};
-use ribopt::run::Subject;
+use ribopt::model::Class;
 use ribopt::run::solve::outcome;
 
-fn file(name: &str, text: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("trusses");
-    fs::create_dir_all(&folder).unwrap();
-    let file = folder.join(format!("{name}.toml"));
-    fs::write(&file, text).unwrap();
-    file
-}
+use super::*;
 
 fn solved(name: &str, text: &str) -> (Subject, Outcome) {
-    let subject = Subject::read(&file(name, text), &[]).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let subject = Subject::read(&file("trusses", name, text), &[]).unwrap_or_else(|error| panic!("{name}: {error}"));
     let found = outcome(&subject).unwrap();
     (subject, found)
 }
@@ -130,17 +118,8 @@ name = \"work\"
 require = \"compliance(P) + 0.1*compliance(U) + sway <= 100\"
 ";
     let text = truss(nodes, "a = \"pinned\"\nb = [\"z\"]", &bars, "{ lower = 1e-6, start = 1e-3 }", rest);
-    let problem = ribopt::input::read(&file("formulas", &text)).unwrap_or_else(|mistakes| panic!("{mistakes}")).problem;
-    let explicit = assemble_any(&Arc::new(problem.determinate().expect("determinate"))).unwrap();
-    let analysed = assemble_any(&Arc::new(problem)).unwrap();
-    assert!(explicit.analysis().is_none() && analysed.analysis().is_some());
     let x = [1.1e-3, 0.7e-3, 2.3e-3, 0.9e-3, 1.7e-3];
-    let rows = |model: &dyn Model| -> HashMap<String, f64> {
-        let mut values = vec![0.0; model.meta().rows()];
-        model.constraints(&x, &mut values).unwrap();
-        values.into_iter().enumerate().map(|(i, value)| (model.meta().names.row(i), value)).collect()
-    };
-    let (explicit, analysed) = (rows(explicit.model()), rows(analysed.model()));
+    let [explicit, analysed] = both_ways(problem("trusses", "formulas", &text), &x);
     assert!(explicit.len() > 90, "{}", explicit.len());
     for (name, value) in &explicit {
         assert!((value - analysed[name]).abs() <= 1e-10 * value.abs() + 1e-12, "{name}: {value}, analysed {}", analysed[name]);

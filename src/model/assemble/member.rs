@@ -1,9 +1,9 @@
 //! What one member of a structure brings to a formula: its numbers, its loads in one case or combination, its inputs.
 
 use crate::expression::graph::NodeId;
+use crate::problem::Problem;
 use crate::problem::statics::{Prepared, Statics};
-use crate::problem::structure::{Member, Shear, Structure};
-use crate::problem::{Dimension, Problem};
+use crate::problem::structure::{Member, Structure};
 use crate::structure::algebra::Numbers;
 use crate::structure::axes::Frame;
 use crate::structure::deformation::BASIC;
@@ -31,26 +31,14 @@ impl<'a> Framework<'a> {
     /// Whether items alike in shape may share what is compiled: no coordinate and no modulus of it varies.
     pub fn is_plain(self, member: u32) -> bool {
         let (declared, prepared) = self.member(member);
-        let material = &self.structure.materials[declared.material as usize];
-        let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
-        let shear = match &material.shear {
-            Some(Shear::Modulus(modulus)) => constant(modulus),
-            _ => true,
-        };
-        prepared.fixed && constant(&material.young) && shear
+        prepared.fixed && self.structure.has_constant_moduli(declared.material)
     }
 
     /// Length, E, G (NaN without) and the loads' values of a plain member, in the order a lowering asks for them.
     pub fn numbers(self, member: u32, set: u32) -> (Vec<f64>, MemberLoads<f64>) {
         let (declared, prepared) = self.member(member);
-        let material = &self.structure.materials[declared.material as usize];
-        let number = |dimension: Dimension| if let Dimension::Constant(value) = dimension { value } else { f64::NAN };
-        let young = number(material.young);
-        let shear = match material.shear {
-            Some(Shear::Modulus(modulus)) => number(modulus),
-            Some(Shear::Poisson(ratio)) => young / (2.0 * (1.0 + ratio)),
-            None => f64::NAN,
-        };
+        let modulus = |name: &str| self.structure.material_number(declared.material, name).unwrap_or(f64::NAN);
+        let (young, shear) = (modulus("E"), modulus("G"));
         let loads = self.statics.member_loads(&mut Numbers, self.structure, (member, set), &prepared.frame);
         let mut numbers = vec![prepared.frame.length, young, shear];
         let _ = loads.map(|value| numbers.push(value));

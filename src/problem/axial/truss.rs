@@ -37,26 +37,21 @@ impl<'a> Truss<'a> {
                 Action::Distributed { .. } | Action::Point { .. } | Action::SelfWeight { .. } | Action::Gradient { .. }
             )
         };
-        let springy = structure.supports.iter().any(|support| support.springs.iter().any(|&spring| spring != 0.0));
         if bars.is_empty()
             || bars.len() * structure.cases.len() > MOST_BARS
-            || springy
+            || structure.has_springs()
             || !bars.iter().all(is_bar)
             || structure.loads.iter().any(|load| pulls(&load.action))
         {
             return None;
         }
-        let nodes = 0..structure.nodes.names.len() as u32;
-        let free = nodes.flat_map(|node| (0..6).map(move |direction| (node, direction)));
-        let free = free.filter(|&(node, direction)| statics.is_free(node, direction)).collect();
+        let free = statics.free_directions().collect();
         Some(Truss { problem, structure, statics, bars, free })
     }
 
     /// How much a bar of unit force pulls at a node in a direction, with the sign of the equations of equilibrium.
     fn pull(&self, bar: u32, node: u32, direction: usize) -> f64 {
-        let (member, prepared) = (&self.structure.members[bar as usize], &self.statics.members[bar as usize]);
-        let at = |end: usize| prepared.rows[0][6 * end + direction];
-        (if member.start == node { at(0) } else { 0.0 }) + (if member.end == node { at(1) } else { 0.0 })
+        self.structure.members[bar as usize].at_node(&self.statics.members[bar as usize].rows[0], node, direction)
     }
 
     /// Equilibrium as rows over the forces.

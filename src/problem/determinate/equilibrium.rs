@@ -3,9 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::numbers::{Loaded, Numbered, ROUNDING};
+use crate::problem::Problem;
 use crate::problem::statics::Statics;
-use crate::problem::structure::{Action, Shear, Structure};
-use crate::problem::{Dimension, Problem};
+use crate::problem::structure::{Action, Structure};
 use crate::structure::algebra::Numbers;
 use crate::structure::deformation::{BASIC, support_rows};
 
@@ -31,17 +31,14 @@ impl<'a> Equilibrium<'a> {
     /// indeterminate ones.
     pub fn of(problem: &'a Problem) -> Option<Self> {
         let (structure, statics) = (problem.structure.as_deref()?, problem.statics.as_deref()?);
-        let springy = structure.supports.iter().any(|support| support.springs.iter().any(|&spring| spring != 0.0));
         let weighs = structure.loads.iter().any(|load| matches!(load.action, Action::SelfWeight { .. }));
-        let nodes = 0..structure.nodes.names.len() as u32;
-        let free = nodes.flat_map(|node| (0..6).map(move |direction| (node, direction)));
-        let free: Vec<(u32, usize)> = free.filter(|&(node, direction)| statics.is_free(node, direction)).collect();
+        let free: Vec<(u32, usize)> = statics.free_directions().collect();
         let members = statics.members.iter().zip(0..);
         let kept =
             members.flat_map(|(prepared, member)| (0..BASIC).filter(|&at| prepared.components[at]).map(move |at| (member, at)));
         let unknowns: Vec<(u32, usize)> = kept.collect();
         let cases = structure.cases.len();
-        if springy
+        if structure.has_springs()
             || weighs
             || free.is_empty()
             || free.len() != unknowns.len()
@@ -51,8 +48,8 @@ impl<'a> Equilibrium<'a> {
             return None;
         }
         let factor = |row: usize, (member, component): (u32, usize)| {
-            let (declared, prepared) = (&structure.members[member as usize], &statics.members[member as usize]);
-            at_node(&prepared.rows[component], (declared.start, declared.end), free[row])
+            let (node, direction) = free[row];
+            structure.members[member as usize].at_node(&statics.members[member as usize].rows[component], node, direction)
         };
         let inverse = DMatrix::from_fn(free.len(), unknowns.len(), |row, at| factor(row, unknowns[at])).try_inverse()?;
         let load = |row: usize, case: usize| {
@@ -98,9 +95,8 @@ impl<'a> Equilibrium<'a> {
         let mut terms = sum.abs();
         for &member in &self.statics.members_at[node as usize] {
             let (declared, prepared) = (&self.structure.members[member as usize], &self.statics.members[member as usize]);
-            let ends = (declared.start, declared.end);
             let forces = self.forces(set, member);
-            let shares = prepared.rows.iter().zip(forces).map(|(row, force)| at_node(row, ends, (node, direction)) * force);
+            let shares = prepared.rows.iter().zip(forces).map(|(row, force)| declared.at_node(row, node, direction) * force);
             let (total, largest) = shares.fold((0.0, 0.0), |(total, largest), share: f64| (total + share, largest + share.abs()));
             let loads = by_member(self.structure, self.statics, (set, member), (node, direction));
             sum += total + loads;
@@ -108,11 +104,6 @@ impl<'a> Equilibrium<'a> {
         }
         if sum.abs() <= ROUNDING * terms { 0.0 } else { sum }
     }
-}
-
-/// A row over the twelve displacements of a member's ends, as a node's direction sees it.
-fn at_node(row: &[f64; 12], (start, end): (u32, u32), (node, direction): (u32, usize)) -> f64 {
-    (if start == node { row[direction] } else { 0.0 }) + (if end == node { row[6 + direction] } else { 0.0 })
 }
 
 /// What the supports of all members, simply supported, exert in a direction of a node.
@@ -128,17 +119,11 @@ fn by_member(structure: &Structure, statics: &Statics, (set, member): (u32, u32)
     }
     let numbered = Numbered::new(structure, statics, Loaded { set, member, forces: [0.0; BASIC] });
     let rows = support_rows(&mut Numbers, &prepared.frame, declared.offset);
-    let ends = (declared.start, declared.end);
-    rows.iter().zip(numbered.support_forces()).map(|(row, force)| at_node(row, ends, at) * force).sum()
+    rows.iter().zip(numbered.support_forces()).map(|(row, force)| declared.at_node(row, at.0, at.1) * force).sum()
 }
 
 /// Whether coordinates and moduli of a member are numbers, or it is not there.
 fn is_constant(structure: &Structure, statics: &Statics, member: usize) -> bool {
-    let material = &structure.materials[structure.members[member].material as usize];
-    let constant = |dimension: &Dimension| matches!(dimension, Dimension::Constant(_));
-    let shear = match &material.shear {
-        Some(Shear::Modulus(modulus)) => constant(modulus),
-        _ => true,
-    };
-    structure.members[member].absent || (statics.members[member].fixed && constant(&material.young) && shear)
+    let declared = &structure.members[member];
+    declared.absent || (statics.members[member].fixed && structure.has_constant_moduli(declared.material))
 }

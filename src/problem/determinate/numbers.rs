@@ -1,12 +1,13 @@
 //! Members of known forces, with sections of which every property is 1: what stands above A, I, J and the shear areas.
 
 use crate::expression::graph::{Graph, NodeId};
-use crate::problem::Dimension;
 use crate::problem::statics::Statics;
-use crate::problem::structure::{Shear, Structure};
+use crate::problem::structure::Structure;
 use crate::sections::{self, Form};
+use crate::structure::algebra::Numbers;
 use crate::structure::beam::{Bending, Force};
 use crate::structure::deformation::BASIC;
+use crate::structure::loads::MemberLoads;
 use crate::structure::quadrature::TAPERED;
 use crate::structure::{Beam, Tapered};
 
@@ -25,6 +26,7 @@ pub(super) struct Numbered<'a> {
     structure: &'a Structure,
     statics: &'a Statics,
     loaded: Loaded,
+    loads: MemberLoads<f64>,
     /// E and, where the material has one, G.
     pub young: f64,
     pub shear: Option<f64>,
@@ -52,20 +54,18 @@ pub(super) type Shares = Vec<(Stiffness, f64)>;
 
 impl<'a> Numbered<'a> {
     pub fn new(structure: &'a Structure, statics: &'a Statics, loaded: Loaded) -> Self {
-        let material = &structure.materials[structure.members[loaded.member as usize].material as usize];
-        let number = |dimension: Dimension| if let Dimension::Constant(value) = dimension { value } else { f64::NAN };
-        let young = number(material.young);
-        let shear = material.shear.map(|shear| match shear {
-            Shear::Modulus(modulus) => number(modulus),
-            Shear::Poisson(ratio) => young / (2.0 * (1.0 + ratio)),
-        });
-        Numbered { structure, statics, loaded, young, shear }
+        let (member, frame) = (&structure.members[loaded.member as usize], &statics.members[loaded.member as usize].frame);
+        let modulus = |name: &str| structure.material_number(member.material, name);
+        let mut loads = statics.member_loads(&mut Numbers, structure, (loaded.member, loaded.set), frame);
+        // Strains deform a determinate structure, and that is all they do: what they do to displacements is not asked for.
+        (loads.strain, loads.gradient, loads.pretension) = (None, None, None);
+        Numbered { structure, statics, loaded, loads, young: modulus("E").unwrap_or(f64::NAN), shear: modulus("G") }
     }
 
     /// An internal force at a fraction of the length; what rounding leaves of one is none.
     pub fn force(&self, which: Force, x: f64) -> f64 {
         let value = self.with_beam(Known::Forces, false, |graph, beam| beam.force(graph, which, x));
-        let loads = self.with_terms(|terms| terms.iter().map(|value| value.abs()).sum::<f64>());
+        let loads = self.loads.terms.iter().map(|term| term.value.abs()).sum::<f64>();
         let terms = self.loaded.forces.iter().map(|force| force.abs()).sum::<f64>() + loads;
         let terms = if matches!(which, Force::Vy | Force::Vz) { terms / self.length() } else { terms };
         if value.abs() <= ROUNDING * terms { 0.0 } else { value }
@@ -84,32 +84,24 @@ impl<'a> Numbered<'a> {
                 false => Bending::lateral(beam).deflection(graph, x),
             })
         };
-        let (bending, both) = (value(false), value(true));
-        let [by_bending, by_shear] = planes(vertical);
-        if self.deforms_in_shear() {
-            vec![(by_bending, bending), (by_shear, both - bending)]
-        } else {
-            vec![(by_bending, bending)]
-        }
+        Self::shares(vertical, value(false), self.deforms_in_shear().then(|| value(true)))
     }
 
     /// The deformations e that go with the basic forces, each over what it has to be divided by.
     pub fn deformations(&self) -> [Shares; BASIC] {
-        let (bending, both) = (self.deformed(false), self.deformed(true));
-        let shares = |component: usize| match component {
+        let (bending, both) = (self.deformed(false), self.deforms_in_shear().then(|| self.deformed(true)));
+        std::array::from_fn(|component| match component {
             0 => vec![(Stiffness::Axial, bending[0])],
             5 => vec![(Stiffness::Torsion, bending[5])],
-            plane => {
-                let [by_bending, by_shear] = planes(plane > 2);
-                let shear = (by_shear, both[plane] - bending[plane]);
-                if self.deforms_in_shear() {
-                    vec![(by_bending, bending[plane]), shear]
-                } else {
-                    vec![(by_bending, bending[plane])]
-                }
-            }
-        };
-        std::array::from_fn(shares)
+            plane => Self::shares(plane > 2, bending[plane], both.map(|both| both[plane])),
+        })
+    }
+
+    /// What bending makes of a quantity in a plane and, beside what both make, shear.
+    fn shares(vertical: bool, bending: f64, both: Option<f64>) -> Shares {
+        let [by_bending, by_shear] = planes(vertical);
+        let shear = both.map(|both| (by_shear, both - bending));
+        std::iter::once((by_bending, bending)).chain(shear).collect()
     }
 
     /// What the basic forces have beyond those that the loads make between held ends.
@@ -120,7 +112,7 @@ impl<'a> Numbered<'a> {
 
     /// Whether nothing acts on the member between its ends.
     pub fn is_unloaded(&self) -> bool {
-        self.with_terms(|terms| terms.is_empty())
+        self.loads.terms.is_empty()
     }
 
     pub fn deforms_in_shear(&self) -> bool {
@@ -161,23 +153,11 @@ impl<'a> Numbered<'a> {
         })
     }
 
-    fn with_terms<T>(&self, then: impl FnOnce(&[f64]) -> T) -> T {
-        let (loaded, frame) = (&self.loaded, &self.statics.members[self.loaded.member as usize].frame);
-        let mut numbers = crate::structure::algebra::Numbers;
-        let loads = self.statics.member_loads(&mut numbers, self.structure, (loaded.member, loaded.set), frame);
-        let values: Vec<f64> = loads.terms.iter().map(|term| term.value).collect();
-        then(&values)
-    }
-
     /// A value of the member with unit properties, unit moduli and what is known of it.
     fn with_beam(&self, known: Known, shear: bool, value: impl FnOnce(&mut Graph, &Beam<'_>) -> NodeId) -> f64 {
         let (loaded, prepared) = (&self.loaded, &self.statics.members[self.loaded.member as usize]);
-        let mut numbers = crate::structure::algebra::Numbers;
         let mut graph = Graph::new();
-        let loads = self.statics.member_loads(&mut numbers, self.structure, (loaded.member, loaded.set), &prepared.frame);
-        let mut loads = loads.map(|value| graph.constant(value));
-        // Strains deform a determinate structure, and that is all they do: what they do to displacements is not asked for.
-        (loads.strain, loads.gradient, loads.pretension) = (None, None, None);
+        let loads = self.loads.map(|value| graph.constant(value));
         let one = graph.constant(1.0);
         let form = unit_form();
         let ones = vec![one; form.dimensions.len()];
