@@ -1,8 +1,12 @@
 //! Basic forces by equilibrium alone.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use nalgebra::DMatrix;
 
-use super::numbers::{Loaded, Numbered, ROUNDING};
+use super::numbers::{Loaded, Numbered, ROUNDING, Shares};
 use crate::problem::Problem;
 use crate::problem::statics::Statics;
 use crate::problem::structure::{Action, Structure};
@@ -24,7 +28,12 @@ pub(super) struct Equilibrium<'a> {
     of_cases: DMatrix<f64>,
     /// By basic force and equation: those that a unit load there calls forth.
     of_units: DMatrix<f64>,
+    /// Deformations of members by case or combination, once asked: every displacement is a sum of them.
+    deformed: RefCell<HashMap<(u32, u32), Rc<Deformed>>>,
 }
+
+/// A member's deformations, each over what it has to be divided by.
+type Deformed = [Shares; BASIC];
 
 impl<'a> Equilibrium<'a> {
     /// `None` for structures with nodes or moduli that move with the design, with springs, with loads that depend on sections, and for
@@ -61,7 +70,7 @@ impl<'a> Equilibrium<'a> {
         let of_cases = found.zip_map(&terms, |force, terms| if force.abs() <= ROUNDING * terms { 0.0 } else { force });
         let largest = inverse.amax();
         let of_units = inverse.map(|force| if force.abs() <= ROUNDING * largest { 0.0 } else { force });
-        Some(Equilibrium { structure, statics, unknowns, free, of_cases, of_units })
+        Some(Equilibrium { structure, statics, unknowns, free, of_cases, of_units, deformed: RefCell::default() })
     }
 
     /// The basic forces of a member in a case or combination.
@@ -70,10 +79,20 @@ impl<'a> Equilibrium<'a> {
         self.of_member(member, |at| factors.iter().map(|&(case, factor)| factor * self.of_cases[(at, case as usize)]).sum())
     }
 
-    /// Those that a unit load in a free direction calls forth; `None` where the direction is held.
-    pub fn unit_forces(&self, node: u32, direction: usize, member: u32) -> Option<[f64; BASIC]> {
-        let row = self.free.iter().position(|&at| at == (node, direction))?;
-        Some(self.of_member(member, |at| self.of_units[(at, row)]))
+    /// The equation of a free direction; `None` where it is held.
+    pub fn equation(&self, node: u32, direction: usize) -> Option<usize> {
+        self.free.iter().position(|&at| at == (node, direction))
+    }
+
+    /// The forces that a unit load in the direction of an equation calls forth.
+    pub fn unit_forces(&self, equation: usize, member: u32) -> [f64; BASIC] {
+        self.of_member(member, |at| self.of_units[(at, equation)])
+    }
+
+    /// The deformations of a member in a case or combination.
+    pub fn deformations(&self, set: u32, member: u32) -> Rc<Deformed> {
+        let found = || Rc::new(self.member(set, member).deformations());
+        Rc::clone(self.deformed.borrow_mut().entry((set, member)).or_insert_with(found))
     }
 
     fn of_member(&self, member: u32, force: impl Fn(usize) -> f64) -> [f64; BASIC] {

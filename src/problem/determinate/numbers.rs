@@ -27,9 +27,6 @@ pub(super) struct Numbered<'a> {
     statics: &'a Statics,
     loaded: Loaded,
     loads: MemberLoads<f64>,
-    /// E and, where the material has one, G.
-    pub young: f64,
-    pub shear: Option<f64>,
 }
 
 /// What a quantity is divided by, besides a modulus.
@@ -54,12 +51,11 @@ pub(super) type Shares = Vec<(Stiffness, f64)>;
 
 impl<'a> Numbered<'a> {
     pub fn new(structure: &'a Structure, statics: &'a Statics, loaded: Loaded) -> Self {
-        let (member, frame) = (&structure.members[loaded.member as usize], &statics.members[loaded.member as usize].frame);
-        let modulus = |name: &str| structure.material_number(member.material, name);
+        let frame = &statics.members[loaded.member as usize].frame;
         let mut loads = statics.member_loads(&mut Numbers, structure, (loaded.member, loaded.set), frame);
         // Strains deform a determinate structure, and that is all they do: what they do to displacements is not asked for.
         (loads.strain, loads.gradient, loads.pretension) = (None, None, None);
-        Numbered { structure, statics, loaded, loads, young: modulus("E").unwrap_or(f64::NAN), shear: modulus("G") }
+        Numbered { structure, statics, loaded, loads }
     }
 
     /// An internal force at a fraction of the length; what rounding leaves of one is none.

@@ -70,15 +70,16 @@ impl Writer<'_> {
     /// A sum of numbers over stiffnesses; `None` where a rib is tapered or its material has no shear modulus.
     fn written(&self, sum: &Sum) -> Option<Formula> {
         sum.formula(|member, stiffness| {
-            let material = self.equilibrium.member(0, member);
             let (modulus, name) = match stiffness {
-                Stiffness::Axial => (material.young, "A"),
-                Stiffness::Lateral => (material.young, "Iy"),
-                Stiffness::Vertical => (material.young, "Ix"),
-                Stiffness::LateralShear => (material.shear?, "Asx"),
-                Stiffness::VerticalShear => (material.shear?, "Asy"),
-                Stiffness::Torsion => (material.shear?, "J"),
+                Stiffness::Axial => ("E", "A"),
+                Stiffness::Lateral => ("E", "Iy"),
+                Stiffness::Vertical => ("E", "Ix"),
+                Stiffness::LateralShear => ("G", "Asx"),
+                Stiffness::VerticalShear => ("G", "Asy"),
+                Stiffness::Torsion => ("G", "J"),
             };
+            let structure = self.equilibrium.structure;
+            let modulus = structure.material_number(structure.members[member as usize].material, modulus)?;
             Some((modulus, property(self.section(member)?, name)))
         })
     }
@@ -146,20 +147,18 @@ impl Writer<'_> {
 
     /// Σ q̄·e by the forces q̄ of a unit load.
     fn add_displacement(&self, sum: &mut Sum, factor: f64, (set, node, direction): (u32, u32, usize)) -> Option<()> {
-        let Equilibrium { structure, statics, .. } = self.equilibrium;
+        let structure = self.equilibrium.structure;
         if structure.is_strained(set) {
             return None;
         }
-        if !statics.is_free(node, direction) {
-            return Some(());
-        }
+        let Some(equation) = self.equilibrium.equation(node, direction) else { return Some(()) };
         for member in 0..structure.members.len() as u32 {
-            let units = self.equilibrium.unit_forces(node, direction, member)?;
+            let units = self.equilibrium.unit_forces(equation, member);
             if units == [0.0; 6] {
                 continue;
             }
-            for (unit, shares) in units.into_iter().zip(self.equilibrium.member(set, member).deformations()) {
-                shares.into_iter().for_each(|(stiffness, value)| sum.add(member, stiffness, factor * unit * value));
+            for (unit, shares) in units.into_iter().zip(self.equilibrium.deformations(set, member).iter()) {
+                shares.iter().for_each(|&(stiffness, value)| sum.add(member, stiffness, factor * unit * value));
             }
         }
         Some(())
@@ -221,8 +220,8 @@ impl Writer<'_> {
             if numbered.deforms_in_shear() && !numbered.is_unloaded() {
                 return None;
             }
-            for (force, shares) in numbered.beyond_held().into_iter().zip(numbered.deformations()) {
-                shares.into_iter().for_each(|(stiffness, value)| sum.add(member, stiffness, force * value));
+            for (force, shares) in numbered.beyond_held().into_iter().zip(self.equilibrium.deformations(set, member).iter()) {
+                shares.iter().for_each(|&(stiffness, value)| sum.add(member, stiffness, force * value));
             }
         }
         Some(sum)
