@@ -10,7 +10,7 @@ mod pairs;
 mod transformed;
 
 use super::symmetric::Pivoting;
-use super::{FactorizationError, Inertia, SymmetricSolver};
+use super::{Effort, FactorizationError, Inertia, SymmetricSolver};
 use transformed::Transformed;
 
 /// A solver like [`SymmetricSolver`] that changes the basis where that pays.
@@ -42,9 +42,9 @@ impl CongruentSolver {
         Self::with_pivoting(offsets, columns, Pivoting::Static)
     }
 
-    /// The same as [`CongruentSolver::new`] for many matrices of one pattern that has small separators: nested dissection.
-    pub fn dissected(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
-        Self::with_pivoting(offsets, columns, Pivoting::Dissected)
+    /// The same as [`CongruentSolver::new`] for many matrices [W, Aᵀ; A, 0] of one pattern that has small separators; callers refine.
+    pub fn for_saddle_points(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::WithinSupernodes)
     }
 
     fn with_pivoting(offsets: Vec<usize>, columns: Vec<u32>, pivoting: Pivoting) -> Result<Self, FactorizationError> {
@@ -54,21 +54,26 @@ impl CongruentSolver {
 
     /// Factorises the matrix with these values along the pattern.
     pub fn factor(&mut self, values: &[f64]) -> Result<Inertia, FactorizationError> {
+        self.factor_by(values, Effort::Any)
+    }
+
+    /// The same with no more effort than this.
+    pub fn factor_by(&mut self, values: &[f64], effort: Effort) -> Result<Inertia, FactorizationError> {
         if let Basis::Unknown(_) = &self.basis
             && pairs::is_telling(&self.offsets, &self.columns, values)
         {
             self.choose(values)?;
         }
         match &mut self.basis {
-            Basis::Unknown(solver) | Basis::Plain(solver) => return solver.factor(values),
+            Basis::Unknown(solver) | Basis::Plain(solver) => return solver.factor_by(values, effort),
             Basis::Changed { transformed, solver } => {
                 if let Some(values) = transformed.values(values) {
-                    return solver.factor(values);
+                    return solver.factor_by(values, effort);
                 }
             }
         }
         let mut plain = self.solver(&self.offsets, &self.columns)?;
-        let inertia = plain.factor(values);
+        let inertia = plain.factor_by(values, effort);
         self.basis = Basis::Plain(plain);
         inertia
     }

@@ -1,49 +1,71 @@
-//! Factors without pivoting where they will do, with pivoting where not.
+//! Factors with pivots where the order puts them where they will do, with pivots sought by size where not.
 
 use feral::CscMatrix;
 
-use super::quasi_definite::QuasiDefiniteSolver;
 use super::sparse::SparseSolver;
-use super::{FactorizationError, Inertia};
+use super::{Effort, FactorizationError, Inertia};
 
-/// Failures after which every matrix is factorised with pivoting at once.
-const MOST_FAILURES: usize = 3;
+/// Quick factors are given up where failures outnumber successes by this: a failure costs less than a success saves, so that in all no
+/// more is lost than these few failures.
+const MOST_LOST: isize = 3;
+
+/// Factors of matrices of one pattern.
+pub(super) trait Factors {
+    /// Factorises a matrix of finite numbers. [`FactorizationError::Singular`] where pivots are lost in rounding.
+    fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError>;
+
+    /// x = A⁻¹·right for the matrix factorised last, without refinement.
+    fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError>;
+}
+
+/// Analyses a matrix for factors of one kind.
+type Analysis = fn(&CscMatrix) -> Result<Box<dyn Factors + Send + Sync>, FactorizationError>;
 
 /// Both solvers, each analysed when it is first needed.
-#[derive(Default)]
 pub(super) struct GuardedSolver {
-    unpivoted: Option<Box<QuasiDefiniteSolver>>,
+    analyse: Analysis,
+    quick: Option<Box<dyn Factors + Send + Sync>>,
     pivoted: SparseSolver,
-    /// Whether the factors found last are pivoted.
+    /// Whether the factors found last are pivoted by size.
     is_pivoted: bool,
-    failures: usize,
+    /// Failures beyond successes.
+    lost: isize,
 }
 
 impl GuardedSolver {
+    /// Quick factors by this analysis.
+    pub fn new(analyse: Analysis) -> Self {
+        GuardedSolver { analyse, quick: None, pivoted: SparseSolver::default(), is_pivoted: false, lost: 0 }
+    }
+
     /// Factorises. Every matrix must have the same pattern.
-    pub fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        if self.failures < MOST_FAILURES {
-            if let Ok(inertia) = self.factor_unpivoted(matrix) {
+    pub fn factor(&mut self, matrix: &CscMatrix, effort: Effort) -> Result<Inertia, FactorizationError> {
+        if self.lost < MOST_LOST {
+            let quick = self.factor_quickly(matrix);
+            self.lost += if quick.is_ok() { -1 } else { 1 };
+            if quick.is_ok() || effort == Effort::Quick {
                 self.is_pivoted = false;
-                return Ok(inertia);
+                return quick;
             }
-            self.failures += 1;
         }
         self.is_pivoted = true;
         self.pivoted.factor(matrix)
     }
 
-    fn factor_unpivoted(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        let solver = match &mut self.unpivoted {
+    fn factor_quickly(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
+        if !matrix.values.iter().all(|value| value.is_finite()) {
+            return Err(FactorizationError::Library("a value is no number".into()));
+        }
+        let solver = match &mut self.quick {
             Some(solver) => solver,
-            None => self.unpivoted.insert(Box::new(QuasiDefiniteSolver::new(matrix)?)),
+            None => self.quick.insert((self.analyse)(matrix)?),
         };
         solver.factor(matrix)
     }
 
     /// x = A⁻¹·right for the matrix factorised last, without refinement.
     pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
-        match &self.unpivoted {
+        match &self.quick {
             Some(solver) if !self.is_pivoted => solver.solve_once(right, x),
             _ => self.pivoted.solve_once(right, x),
         }

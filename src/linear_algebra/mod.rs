@@ -1,4 +1,4 @@
-//! Sparse symmetric factorisation, by libraries (feral for indefinite matrices, faer for quasi-definite ones), behind an interface of
+//! Sparse symmetric factorisation, by libraries (faer, and feral where pivots must be sought far), behind an interface of
 //! our own.
 //!
 //! A leaf: it knows index slices and values, nothing of models. Patterns are lower triangles compressed by rows,
@@ -19,13 +19,13 @@ mod outcome;
 pub mod partition;
 pub mod pattern;
 pub mod pencil;
-mod quasi_definite;
 pub mod saddle_point;
 pub mod signed_least_squares;
 mod sparse;
+mod supernodal;
 mod symmetric;
 
-pub use outcome::{FactorizationError, Inertia};
+pub use outcome::{Effort, FactorizationError, Inertia};
 pub use partition::Partition;
 pub use pattern::Pattern;
 pub use symmetric::SymmetricSolver;

@@ -1,27 +1,72 @@
-//! A fill-reducing order of the unknowns: approximate minimum degree (Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17, 1996) on
-//! the graph without its longest rows, each of which follows the last of its neighbours.
+//! A fill-reducing order of the unknowns: approximate minimum degree (Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17, 1996), and
+//! for factors that cost more than it does nested dissection (George, SIAM J. Numer. Anal. 10, 1973): whichever takes fewer
+//! operations.
 //!
-//! A row over hundreds of unknowns (a limit of a whole line of ribs) costs minimum degree more time than all others together and tells
-//! it little: whichever neighbour goes first, the others become one clique.
+//! Both work on the graph without its longest rows, each of which follows the last of its neighbours. A row over hundreds of unknowns (a
+//! limit of a whole line of ribs) costs minimum degree more time than all others together and tells it little: whichever neighbour goes
+//! first, the others become one clique.
 
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::cholesky::simplicial::{prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch};
 use feral::CscMatrix;
 use feral_amd::{CscPattern, amd_order};
+use feral_scotch::scotch_order;
 
 /// A row is long that has more neighbours than this, and than this multiple of the mean.
 const LONG: usize = 64;
 const TIMES_THE_MEAN: usize = 10;
+/// Operations of factors that take about as long as dissecting the graph takes for each unknown (25 µs, at 1 GFlop/s).
+const DISSECTION: f64 = 2.5e4;
 
 /// The order, `order[k]` being the unknown that is eliminated k-th; `None` where the library refuses the pattern.
 pub(super) fn fill_reducing(matrix: &CscMatrix) -> Option<Vec<usize>> {
+    let order = ordered(matrix, |graph| amd_order(graph).ok())?;
+    let operations = operations(matrix, &order)?;
+    if operations <= DISSECTION * matrix.n as f64 {
+        return Some(order);
+    }
+    let dissected = ordered(matrix, |graph| scotch_order(graph).ok()).filter(|other| {
+        let of_other = self::operations(matrix, other);
+        of_other.is_some_and(|of_other| of_other < operations)
+    });
+    Some(dissected.unwrap_or(order))
+}
+
+/// An order by a library, the long rows put in afterwards.
+fn ordered(matrix: &CscMatrix, library: impl FnOnce(&CscPattern<'_>) -> Option<Vec<i32>>) -> Option<Vec<usize>> {
     let degrees = degrees(matrix);
     let longest = LONG.max(TIMES_THE_MEAN * degrees.iter().sum::<usize>() / matrix.n.max(1));
     let short: Vec<usize> = (0..matrix.n).filter(|&j| degrees[j] <= longest).collect();
-    let order = of_short(matrix, &short)?;
+    let order = of_short(matrix, &short, library)?;
     let mut turn = vec![None; matrix.n];
     for (k, &j) in order.iter().enumerate() {
         turn[j] = Some(k);
     }
     Some(with_long(order, &last_neighbours(matrix, &turn)))
+}
+
+/// Multiplications of factors in this order: the squares of the columns' lengths.
+fn operations(matrix: &CscMatrix, order: &[usize]) -> Option<f64> {
+    let mut turn = vec![0; matrix.n];
+    order.iter().enumerate().for_each(|(k, &j)| turn[j] = k);
+    // The upper triangle by columns.
+    let mut starts = vec![0; matrix.n + 1];
+    couplings(matrix).for_each(|(i, j)| starts[turn[i].max(turn[j]) + 1] += 1);
+    (0..matrix.n).for_each(|k| starts[k + 1] += starts[k]);
+    let (mut next, mut rows) = (starts.clone(), vec![0; starts[matrix.n]]);
+    for (i, j) in couplings(matrix) {
+        let place = &mut next[turn[i].max(turn[j])];
+        rows[*place] = turn[i].min(turn[j]);
+        *place += 1;
+    }
+    starts.windows(2).for_each(|range| rows[range[0]..range[1]].sort_unstable());
+    let room = prefactorize_symbolic_cholesky_scratch::<usize>(matrix.n, rows.len());
+    let mut memory = MemBuffer::try_new(room).ok()?;
+    let (mut tree, mut lengths) = (vec![0; matrix.n], vec![0; matrix.n]);
+    let upper = SymbolicSparseColMatRef::new_checked(matrix.n, matrix.n, &starts, None, &rows);
+    prefactorize_symbolic_cholesky(&mut tree, &mut lengths, upper, MemStack::new(&mut memory));
+    Some(lengths.iter().map(|&length: &usize| (length as f64).powi(2)).sum())
 }
 
 /// The entries off the diagonal: (row, column), row > column.
@@ -41,7 +86,11 @@ fn degrees(matrix: &CscMatrix) -> Vec<usize> {
 }
 
 /// The order of some unknowns, given ascending, with couplings among themselves alone.
-fn of_short(matrix: &CscMatrix, short: &[usize]) -> Option<Vec<usize>> {
+fn of_short(
+    matrix: &CscMatrix,
+    short: &[usize],
+    library: impl FnOnce(&CscPattern<'_>) -> Option<Vec<i32>>,
+) -> Option<Vec<usize>> {
     let mut place = vec![None; matrix.n];
     for (k, &j) in short.iter().enumerate() {
         place[j] = Some(k);
@@ -64,7 +113,7 @@ fn of_short(matrix: &CscMatrix, short: &[usize]) -> Option<Vec<usize>> {
     // Smaller neighbours first, so that each list ascends.
     pairs().for_each(|(i, j)| put(i, j));
     pairs().for_each(|(i, j)| put(j, i));
-    let order = amd_order(&CscPattern::new(short.len(), &starts, &neighbours)?).ok()?;
+    let order = library(&CscPattern::new(short.len(), &starts, &neighbours)?)?;
     order.into_iter().map(|k| short.get(usize::try_from(k).ok()?).copied()).collect()
 }
 
@@ -125,6 +174,26 @@ mod tests {
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..n + 2), "every unknown once");
+    }
+
+    #[test]
+    fn factors_of_a_grid_cost_a_fraction_of_the_band() {
+        let side = 120;
+        let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
+        for j in 0..side * side {
+            row_idx.push(j);
+            row_idx.extend((j % side + 1 < side).then_some(j + 1));
+            row_idx.extend((j / side + 1 < side).then_some(j + side));
+            col_ptr.push(row_idx.len());
+        }
+        let grid = CscMatrix { n: side * side, values: vec![0.0; row_idx.len()], col_ptr, row_idx };
+        let by_rows: Vec<usize> = (0..grid.n).collect();
+        // A band of width s: s³ operations on each of s lines.
+        let banded = operations(&grid, &by_rows).unwrap();
+        assert!(banded > 0.9 * (side as f64).powi(4), "{banded}");
+        let least = operations(&grid, &fill_reducing(&grid).unwrap()).unwrap();
+        let by_degree = operations(&grid, &ordered(&grid, |graph| amd_order(graph).ok()).unwrap()).unwrap();
+        assert!(least <= by_degree && least < 0.2 * banded, "{least} {by_degree} {banded}");
     }
 
     #[test]

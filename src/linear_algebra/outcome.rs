@@ -35,3 +35,12 @@ pub enum FactorizationError {
     #[error("the time limit is reached")]
     Late,
 }
+
+/// What a factorisation may cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Whatever it takes.
+    Any,
+    /// No more than quick factors, which fail where pivots would have to be sought far; unless they have been given up.
+    Quick,
+}

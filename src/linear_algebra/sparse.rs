@@ -14,19 +14,12 @@ const LARGEST_AUTOMATIC: usize = 10_000;
 #[derive(Default)]
 pub(super) struct SparseSolver {
     solver: Option<Box<Solver>>,
-    is_dissected: bool,
 }
 
 impl SparseSolver {
-    /// One whose order comes from nested dissection: on the graphs of structures, which have small separators, its factors cost half of
-    /// those by minimum degree, and itself as much as three of them.
-    pub fn dissected() -> Self {
-        SparseSolver { solver: None, is_dissected: true }
-    }
-
     /// Factorises; analyses the pattern before that the first time. Every matrix must have the same pattern.
     pub fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        let solver = self.solver.get_or_insert_with(|| Box::new(prepared(matrix, self.is_dissected)));
+        let solver = self.solver.get_or_insert_with(|| Box::new(prepared(matrix)));
         match solver.factor(matrix, None) {
             FactorStatus::Success | FactorStatus::WrongInertia { .. } => {
                 solver.inertia().map(Inertia::of).ok_or(FactorizationError::Singular)
@@ -56,15 +49,10 @@ impl SparseSolver {
     }
 }
 
-fn prepared(matrix: &CscMatrix, is_dissected: bool) -> Solver {
-    if is_dissected {
-        return Solver::new().with_ordering(OrderingMethod::ScotchND);
-    }
+fn prepared(matrix: &CscMatrix) -> Solver {
     if matrix.n <= LARGEST_AUTOMATIC {
         return Solver::new();
     }
-    // Minimum degree copes better with rows that reach far than dissection (half of the fill and less on grids with a row per
-    // line, no worse on plain grids, chains and trees).
     Solver::new().with_ordering(fill_reducing(matrix).map_or(OrderingMethod::Amd, OrderingMethod::External))
 }
 

@@ -5,7 +5,8 @@ use feral::CscMatrix;
 use super::dense::{self, DenseSolver};
 use super::guarded::GuardedSolver;
 use super::sparse::SparseSolver;
-use super::{FactorizationError, Inertia};
+use super::supernodal::{BunchKaufmanSolver, QuasiDefiniteSolver};
+use super::{Effort, FactorizationError, Inertia};
 
 /// A factorisation that keeps its symbolic analysis from one set of values to the next.
 ///
@@ -33,8 +34,8 @@ pub struct SymmetricSolver {
 pub(super) enum Pivoting {
     /// By size.
     Threshold,
-    /// By size, in an order by nested dissection.
-    Dissected,
+    /// By size within supernodes, as long as that goes well.
+    WithinSupernodes,
     /// Not at all, as long as that goes well.
     Static,
 }
@@ -42,7 +43,7 @@ pub(super) enum Pivoting {
 /// Which factorisation is used.
 enum Method {
     Sparse(SparseSolver),
-    QuasiDefinite(Box<GuardedSolver>),
+    Guarded(Box<GuardedSolver>),
     /// For orders up to [`dense::LARGEST_ORDER`]: faster, for want of anything to organise.
     Dense(Box<DenseSolver>),
 }
@@ -87,8 +88,12 @@ impl SymmetricSolver {
         } else {
             match pivoting {
                 Pivoting::Threshold => Method::Sparse(SparseSolver::default()),
-                Pivoting::Dissected => Method::Sparse(SparseSolver::dissected()),
-                Pivoting::Static => Method::QuasiDefinite(Box::default()),
+                Pivoting::WithinSupernodes => {
+                    Method::Guarded(Box::new(GuardedSolver::new(|matrix| Ok(Box::new(BunchKaufmanSolver::new(matrix)?)))))
+                }
+                Pivoting::Static => {
+                    Method::Guarded(Box::new(GuardedSolver::new(|matrix| Ok(Box::new(QuasiDefiniteSolver::new(matrix)?)))))
+                }
             }
         };
         Ok(SymmetricSolver { matrix, places, method })
@@ -101,6 +106,11 @@ impl SymmetricSolver {
 
     /// Factorises the matrix with these values along the pattern. The analysis is done at the first call and kept.
     pub fn factor(&mut self, values: &[f64]) -> Result<Inertia, FactorizationError> {
+        self.factor_by(values, Effort::Any)
+    }
+
+    /// The same with no more effort than this.
+    pub(super) fn factor_by(&mut self, values: &[f64], effort: Effort) -> Result<Inertia, FactorizationError> {
         if values.len() != self.places.len() {
             let sizes = format!("{} values for {} positions", values.len(), self.places.len());
             return Err(FactorizationError::Pattern(sizes));
@@ -114,7 +124,7 @@ impl SymmetricSolver {
         match &mut self.method {
             Method::Dense(solver) => solver.factor(&self.matrix),
             Method::Sparse(solver) => solver.factor(&self.matrix),
-            Method::QuasiDefinite(solver) => solver.factor(&self.matrix),
+            Method::Guarded(solver) => solver.factor(&self.matrix, effort),
         }
     }
 
@@ -127,7 +137,7 @@ impl SymmetricSolver {
         match &self.method {
             Method::Dense(solver) => solver.solve(right, x),
             Method::Sparse(solver) => solver.solve(&self.matrix, right, x),
-            Method::QuasiDefinite(_) => self.solve_once(right, x),
+            Method::Guarded(_) => self.solve_once(right, x),
         }
     }
 
@@ -135,7 +145,7 @@ impl SymmetricSolver {
     pub fn solve_once(&self, right: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
         match &self.method {
             Method::Sparse(solver) if self.order() > 0 => solver.solve_once(right, x),
-            Method::QuasiDefinite(solver) => solver.solve_once(right, x),
+            Method::Guarded(solver) => solver.solve_once(right, x),
             _ => self.solve(right, x),
         }
     }

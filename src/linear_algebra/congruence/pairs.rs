@@ -39,7 +39,10 @@ pub(super) fn find(offsets: &[usize], columns: &[u32], values: &[f64]) -> Vec<Op
     let mut partners = vec![None; order];
     let mut taken = vec![false; order];
     for i in (0..order).filter(|&i| columns.of_one(i).len() <= LONGEST) {
-        let free = |&&(k, _): &&(u32, u32)| k as usize != i && !taken[k as usize] && columns.of_one(k as usize).len() <= LONGEST;
+        let own = columns.of_one(i).len();
+        // As many rows as the longer column has are looked at, and no more than the shorter one has are alike.
+        let fits = |other: usize| other <= LONGEST && own.max(other) <= 2 * own.min(other) + 2;
+        let free = |&&(k, _): &&(u32, u32)| k as usize != i && !taken[k as usize] && fits(columns.of_one(k as usize).len());
         let found = columns.of_one(i).iter().filter(free).find_map(|&(j, _)| {
             let ratio = proportion(&columns, values, (i, j as usize))?;
             Some(Partner { place: j, ratio })

@@ -10,7 +10,7 @@ use super::super::parameters::PARAMETERS;
 use super::super::vectors::norm_max;
 use super::system::System;
 use crate::linear_algebra::congruence::CongruentSolver;
-use crate::linear_algebra::{FactorizationError, Inertia};
+use crate::linear_algebra::{Effort, FactorizationError, Inertia};
 use crate::model::Pattern;
 
 /// Factors, and where the system's values stand in the matrix.
@@ -72,7 +72,7 @@ impl Condensed {
             // Beside equalities the matrix is not quasi-definite.
             solver: match equalities.is_empty() {
                 true => CongruentSolver::for_quasi_definite(pattern.offsets, pattern.columns),
-                false => CongruentSolver::dissected(pattern.offsets, pattern.columns),
+                false => CongruentSolver::for_saddle_points(pattern.offsets, pattern.columns),
             }
             .ok()?,
             condensed,
@@ -83,7 +83,7 @@ impl Condensed {
     }
 
     /// Factorises the system's values. The inertia is that of the whole matrix.
-    pub fn factor(&mut self, system: &System) -> Result<Inertia, FactorizationError> {
+    pub fn factor(&mut self, system: &System, effort: Effort) -> Result<Inertia, FactorizationError> {
         self.values.fill(0.0);
         for (&place, value) in self.hessian_places.iter().zip(&system.hessian_values) {
             self.values[place] += value;
@@ -106,7 +106,7 @@ impl Condensed {
         for (&place, &i) in self.kept_diagonal.iter().zip(&self.kept) {
             self.values[place] = -system.dual[i];
         }
-        let inertia = self.solver.factor(&self.values)?;
+        let inertia = self.solver.factor_by(&self.values, effort)?;
         Ok(Inertia { negative: inertia.negative + self.condensed.len(), ..inertia })
     }
 

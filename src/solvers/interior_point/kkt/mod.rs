@@ -12,7 +12,7 @@ mod system;
 
 use super::parameters::PARAMETERS;
 use super::slack_form::SlackForm;
-use crate::linear_algebra::{FactorizationError, Inertia};
+use crate::linear_algebra::{Effort, FactorizationError, Inertia};
 use condensed::Condensed;
 use full::Full;
 use system::System;
@@ -27,7 +27,7 @@ pub(super) struct Kkt {
     in_full: bool,
     /// Times the condensed form failed.
     failures: usize,
-    /// Whether the whole matrix is factorised where the condensed form fails: a matter of many times the time.
+    /// Whether pivots are sought far, and the whole matrix is factorised, where the condensed form fails: a matter of many times the time.
     pub patient: bool,
     /// Slack of each row.
     slack: Vec<Option<usize>>,
@@ -108,7 +108,7 @@ impl Kkt {
         self.correction = primal;
         if let Some(condensed) = &mut self.condensed {
             self.in_full = false;
-            let inertia = condensed.factor(system);
+            let inertia = condensed.factor(system, if self.patient { Effort::Any } else { Effort::Quick });
             if inertia.is_ok() {
                 return inertia;
             }

@@ -98,6 +98,10 @@ impl State<'_> {
             if error <= PARAMETERS.epsilon_tol {
                 return Ok(Some(point));
             }
+            // As far from optimal as any point: the set has nothing to do with the optimum's.
+            if error > 1.0 {
+                return Ok(None);
+            }
             // The factors serve again as long as the active set stays and they bring much.
             fresh = revise(&self.form, &mut sides, &point, &mut self.work.right) || error > PARAMETERS.polish.worthwhile * before;
             before = error;
