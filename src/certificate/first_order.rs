@@ -14,12 +14,9 @@ pub(super) fn found(
     feasibility: &Feasibility,
     tolerances: &Tolerances,
 ) -> (Multipliers, Certificate) {
-    if let Some(witness) = witness.filter(|_| feasibility.infeasibility <= tolerances.constraint) {
-        let offers = [Taken::Active, Taken::Near].into_iter();
-        let mut offers = offers.filter_map(|taken| multipliers::from_witness(point, witness, taken));
-        if let Some(passed) = offers.find_map(|offered| tested(point, offered, feasibility, tolerances)) {
-            return passed;
-        }
+    let usable = witness.filter(|_| feasibility.infeasibility <= tolerances.constraint);
+    if let Some(passed) = usable.and_then(|witness| offered(point, witness, feasibility, tolerances)) {
+        return passed;
     }
     let mut found = multipliers::find(point, witness);
     let mut certificate = of(point, &found, feasibility, tolerances);
@@ -50,25 +47,41 @@ pub(super) fn found(
     (found, certificate)
 }
 
-/// A witness with the residuals it leaves, if they pass.
-fn tested(
+/// What a witness offers, with the residuals it leaves, if they pass: as it is before what only passes when it is refined.
+fn offered(
     point: &Point<'_>,
-    offered: Multipliers,
+    witness: &[f64],
     feasibility: &Feasibility,
     tolerances: &Tolerances,
 ) -> Option<(Multipliers, Certificate)> {
-    let offered_certificate = of(point, &offered, feasibility, tolerances);
+    let offers = [Taken::Active, Taken::Near].into_iter().filter_map(|taken| multipliers::from_witness(point, witness, taken));
+    let with_residuals = |offer: Multipliers| {
+        let certificate = of(point, &offer, feasibility, tolerances);
+        (offer, certificate)
+    };
+    let (passed, others): (Vec<_>, Vec<_>) =
+        offers.map(with_residuals).partition(|(_, certificate)| is_stationary(certificate, tolerances));
+    passed.into_iter().chain(others).find_map(|offer| refined(point, offer, feasibility, tolerances))
+}
+
+/// Multipliers as they are, or refined where that leaves less, if they pass.
+fn refined(
+    point: &Point<'_>,
+    offer: (Multipliers, Certificate),
+    feasibility: &Feasibility,
+    tolerances: &Tolerances,
+) -> Option<(Multipliers, Certificate)> {
     let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
-    if residual(&offered_certificate) > REFINABLE {
+    if residual(&offer.1) > REFINABLE {
         return None;
     }
-    let refined = multipliers::refined(point, &offered).map(|refined| {
+    let refined = multipliers::refined(point, &offer.0).map(|refined| {
         let certificate = of(point, &refined, feasibility, tolerances);
         (refined, certificate)
     });
     let best = match refined {
-        Some(refined) if residual(&refined.1) <= residual(&offered_certificate) => refined,
-        _ => (offered, offered_certificate),
+        Some(refined) if residual(&refined.1) <= residual(&offer.1) => refined,
+        _ => offer,
     };
     is_stationary(&best.1, tolerances).then_some(best)
 }
