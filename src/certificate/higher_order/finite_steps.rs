@@ -5,11 +5,14 @@
 //! directions that do bend, by chord steps with [D∇²L D/σ + |…| + I, Aᵀ; A, −δI]; the first change of the objective that rounding
 //! and the point's own slope do not explain decides.
 
+use rayon::prelude::*;
+
+use super::slopes::{flatness, slopes};
 use super::trial_point::Trial;
 use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::{
-    BESIDE, BEYOND_A_LIMIT, CORRECTIONS, DIRECTIONS, FLAT, NEAR, NOISE, STEPS, STRETCH, WORK,
+    BESIDE, BEYOND_A_LIMIT, CORRECTIONS, DIRECTIONS, NEAR, NOISE, STEPS, STRETCH, WORK,
 };
 use crate::certificate::point::Point;
 use crate::certificate::residuals::worst_complementarity;
@@ -35,7 +38,7 @@ pub(in crate::certificate) fn find(
         return Ok(None);
     }
     let mut kkt = Kkt::new(point, hessian, &free, &strict)?;
-    let flatness = flatness(point, active.multipliers, &choice, tolerances.optimality);
+    let flatness = flatness(point, active, &choice, tolerances.optimality);
     let flat = if kkt.is_flat(flatness)? { kkt.flat_directions(most, flatness)? } else { Vec::new() };
     if flat.is_empty() && inwards.is_empty() {
         return Ok(None);
@@ -49,21 +52,6 @@ pub(in crate::certificate) fn find(
     }
     walk.may_be_left.fill(true);
     Ok(walk.lower_point(inwards.iter().take(most).chain(&flat)))
-}
-
-/// Up to which curvature a direction counts as flat. Where f falls by a slope r along one and bends up by κ, there is a minimum ahead if κ² ≥ 2·f'''·r;
-/// FLAT is κ for the largest third derivative that is thought of and the largest accepted r, and less is enough for the slope that is left.
-fn flatness(point: &Point<'_>, multipliers: &Multipliers, choice: &Choice, accepted: f64) -> f64 {
-    let loose = choice.loose_variables();
-    let largest =
-        |slopes: &Vec<f64>| loose.iter().map(|&j| (slopes[j] * point.sizes[j]).abs()).fold(0.0, f64::max) / point.scale();
-    let slope = slopes(point, multipliers, choice).iter().map(largest).fold(NOISE, f64::max);
-    FLAT * (slope / accepted).sqrt().min(1.0)
-}
-
-/// ∇f + Jᵀy, with all multipliers and without those of rows that are weakly active, or nearly: these cannot be told from 0.
-fn slopes(point: &Point<'_>, multipliers: &Multipliers, choice: &Choice) -> [Vec<f64>; 2] {
-    [&multipliers.rows, &without_weak(choice, multipliers)].map(|y| point.row_gradient(y))
 }
 
 /// The same along one direction: whether it leads to a lower point indeed.
@@ -154,9 +142,10 @@ impl<'w, 'p> Walk<'w, 'p> {
         })
     }
 
+    /// Where the first of the directions that leads to a lower point does, each both ways, side by side.
     fn lower_point<'d>(&self, directions: impl Iterator<Item = &'d Vec<f64>>) -> Option<Vec<f64>> {
-        let mut within_time = directions.take_while(|_| !self.point.is_over());
-        within_time.find_map(|direction| match self.along(direction, 1.0) {
+        let directions: Vec<&Vec<f64>> = directions.collect();
+        directions.into_par_iter().find_map_first(|direction| match self.along(direction, 1.0) {
             Way::Lower(way) => Some(way),
             // Rows bend by vᵀCv whichever way v is followed.
             Way::Barred if self.is_two_sided(direction) => None,
@@ -289,11 +278,4 @@ impl<'w, 'p> Walk<'w, 'p> {
         let lacks = self.held.iter().enumerate().map(lack);
         Some(slopes.chain(lacks).collect())
     }
-}
-
-/// The row multipliers but for those of weakly active rows.
-fn without_weak(choice: &Choice, multipliers: &Multipliers) -> Vec<f64> {
-    let mut y = multipliers.rows.clone();
-    choice.weak_rows.iter().for_each(|&i| y[i] = 0.0);
-    y
 }

@@ -1,6 +1,7 @@
 //! The scaled KKT matrix over free variables and active rows, and what its inertia says.
 
 use nalgebra::{DMatrix, SymmetricEigen};
+use rayon::prelude::*;
 
 use super::system::{Hessian, places, weight};
 use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, INDEPENDENT, POWER_STEPS};
@@ -137,11 +138,11 @@ impl<'a> Kkt<'a> {
         flat: f64,
     ) -> Result<Vec<Vec<f64>>, FactorizationError> {
         self.factor_shifted(FLAT_SHIFT)?;
-        let (p, mut found, mut basis) = (self.free.len(), Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new());
+        let p = self.free.len();
         // Quadrants first, then single variables.
         let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
         let singles = p.min(most.saturating_sub(quadrants));
-        for k in 0..quadrants + singles {
+        let flattest = |k: usize| {
             self.point.in_time()?;
             let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))).is_multiple_of(2) || k == 0 { 1.0 } else { -1.0 };
             let start = |at: usize| match k.checked_sub(quadrants) {
@@ -158,11 +159,16 @@ impl<'a> Kkt<'a> {
                 size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
                 v.iter_mut().for_each(|v| *v /= size);
             }
-            if size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * dot(&v, &v) {
-                basis.extend(beyond(&basis, &v));
-                if is_new(&found, &v) {
-                    found.push(v);
-                }
+            let is_flat = size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * dot(&v, &v);
+            Ok(is_flat.then_some(v))
+        };
+        let all: Result<Vec<Option<Vec<f64>>>, FactorizationError> =
+            (0..quadrants + singles).into_par_iter().map(flattest).collect();
+        let (mut found, mut basis) = (Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new());
+        for v in all?.into_iter().flatten() {
+            basis.extend(beyond(&basis, &v));
+            if is_new(&found, &v) {
+                found.push(v);
             }
         }
         for v in self.apart(&basis) {
