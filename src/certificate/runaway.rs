@@ -40,8 +40,11 @@ pub(super) fn find(
         return Runaway::default();
     }
     let choice = Choice::all(point, active);
-    let directions = directions(point, hessian, &choice, dependent);
-    let found = if choice.free.len() + choice.held.len() <= LARGEST {
+    let is_open = !is_closed(point.meta());
+    let directions = if is_open { directions(point, hessian, &choice, dependent) } else { Vec::new() };
+    let found = if !is_open {
+        None
+    } else if choice.free.len() + choice.held.len() <= LARGEST {
         // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
         // variable that seems to rest on its bound.
         let held = |rows: Vec<usize>| held_rows(point, rows);
@@ -88,6 +91,13 @@ fn far_out<'a>(point: &'a Point<'_>, free: &'a [usize]) -> impl Iterator<Item = 
     let meta = point.meta();
     let is_far = |&j: &usize| recession::is_farther(point.x[j], meta.start[j], FAR);
     free.iter().copied().filter(|&j| is_open(meta, j)).filter(is_far)
+}
+
+/// Whether no variable can go on for ever: each has bounds, or is a state that the others bound. A continuous objective attains its infimum
+/// there (Weierstrass).
+fn is_closed(meta: &Meta) -> bool {
+    let bounded = |j: usize| !is_open(meta, j) || meta.states.is_some_and(|states| states.are_bounded && states.has(j));
+    (0..meta.variables()).all(bounded)
 }
 
 fn is_open(meta: &Meta, j: usize) -> bool {

@@ -2,6 +2,7 @@
 //! with as many state equations (equilibrium). Its elements know deformations; two constant maps lead from displacements to
 //! deformations and from member forces to the equilibrium of nodes.
 
+mod bounded;
 mod equations;
 mod maps;
 mod modes;
@@ -61,7 +62,8 @@ impl Lifted {
         let first_row = rows.meta().rows();
         // Without a case nothing is displaced; modes have displacements of their own.
         let block = if structure.cases.is_empty() { 0 } else { directions.len() };
-        let states = States { first_variable: own, first_row, block, blocks: structure.cases.len() };
+        let are_bounded = bounded::are_bounded(problem, structure, statics);
+        let states = States { first_variable: own, first_row, block, blocks: structure.cases.len(), are_bounded };
         let numbering = Numbering { states, of: directions.iter().zip(0..).map(|(&at, number)| (at, number)).collect() };
         let mut maps = Maps::default();
         deformations(structure, statics, &numbering, &mut maps);

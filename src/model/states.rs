@@ -11,4 +11,14 @@ pub struct States {
     pub block: usize,
     /// Number of blocks. All have the same matrix ∂R/∂u.
     pub blocks: usize,
+    /// Whether that matrix is regular wherever the design is within its bounds, which are finite: then the states are continuous in the
+    /// design, and bounded.
+    pub are_bounded: bool,
+}
+
+impl States {
+    /// Whether variable j is one of them.
+    pub fn has(self, j: usize) -> bool {
+        (self.first_variable..self.first_variable + self.block * self.blocks).contains(&j)
+    }
 }

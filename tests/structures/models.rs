@@ -227,3 +227,62 @@ fn the_residual_is_measured_without_definitions() {
     let residual = analyse(&subject, None, false).unwrap().equilibrium_residual;
     assert!(residual > 0.0 && residual < 1e-13, "{residual}");
 }
+
+/// Displacements are bounded with the design where no member can lose its stiffness or its place.
+#[test]
+fn displacements_are_bounded_where_the_design_is() {
+    let are_bounded = |area: &str, height: &str, beam: &str| {
+        let text = format!(
+            "minimize = \"volume\"\n[structure]\nplane = \"xz\"\n{MATERIAL}
+[variables]
+height = {{ lower = 1, upper = 2, start = 1.5 }}
+[nodes]
+a = [0, 0]
+b = [0, 2]
+c = [2, {height}]
+[supports]
+a = \"fixed\"
+b = \"pinned\"
+[sections.bar]
+kind = \"general\"
+A = {area}
+[sections.low]
+kind = \"rectangle\"
+b = 0.1
+h = {{ lower = 0.1, upper = 0.5 }}
+[sections.high]
+kind = \"rectangle\"
+b = 0.1
+h = {{ lower = 0.1, upper = 0.5 }}
+[[ribs]]
+name = \"beam\"
+start = \"a\"
+end = \"c\"
+{beam}
+[[ribs]]
+name = \"tie\"
+start = \"b\"
+end = \"c\"
+section = \"bar\"
+joints = \"pinned\"
+[[loads]]
+case = \"g\"
+nodes = [\"c\"]
+force = [0, -10]
+[[constraints]]
+name = \"sway\"
+require = \"disp(g, c, z) >= -0.01\"
+"
+        );
+        let subject = subject("bounded", &text);
+        subject.analysis().expect("the problem asks for responses").lifted().states().are_bounded
+    };
+    let prismatic = "section = \"low\"";
+    let tapered = "from = \"low\"\nto = \"high\"";
+    let area = "{ lower = 1e-4, upper = 1e-2 }";
+    assert!(are_bounded(area, "0", prismatic));
+    assert!(!are_bounded("{ lower = 0, upper = 1e-2, start = 1e-3 }", "0", prismatic), "a bar may vanish");
+    assert!(!are_bounded("{ lower = 1e-4, start = 1e-3 }", "0", prismatic), "an area has no upper bound");
+    assert!(!are_bounded(area, "\"height\"", prismatic), "a node may move");
+    assert!(!are_bounded(area, "0", tapered), "what lies between two sections is not looked at");
+}
