@@ -7,7 +7,7 @@
 //! cone and s = Gu ≥ 0, uᵀQu ≥ sᵀMs ≥ 0. Conversely, what is weakened by δ is |Q|²δ/4 of curvature at the most. Rows may depend
 //! on one another.
 
-use super::system::{Active, Choice, Hessian, places, weight};
+use super::system::{Active, Choice, Hessian, weight};
 use crate::certificate::Side;
 use crate::certificate::parameters::second_order::DELTA;
 use crate::certificate::point::Point;
@@ -41,22 +41,27 @@ impl<'a> Cone<'a> {
     ) -> Result<Self, FactorizationError> {
         point.in_time()?;
         let (loose, strict) = (choice.loose_variables(), choice.strict_rows());
-        let place = places(point.meta().variables(), &loose);
+        // One of many components must not cost what all of them do.
+        let place = |j: usize| loose.binary_search(&j).ok();
         let scale: Vec<f64> = loose.iter().map(|&j| weight(hessian.size[j]).sqrt().recip()).collect();
-        let entry = |(at, (row, column)): (usize, (usize, usize))| match (place[row], place[column]) {
-            (u32::MAX, _) | (_, u32::MAX) => None,
-            (a, b) => Some((a, b, hessian.values[at] * scale[a as usize] * scale[b as usize])),
+        let pattern = &point.meta().hessian;
+        let entry = |a: usize, at: usize| {
+            let b = place(pattern.columns[at] as usize)?;
+            Some((a as u32, b as u32, hessian.values[at] * scale[a] * scale[b]))
         };
-        let entries = point.meta().hessian.iter().enumerate().filter_map(entry).collect();
+        let of_row = |(a, &row): (usize, &usize)| pattern.range(row).filter_map(move |at| entry(a, at));
+        let entries: Vec<(u32, u32, f64)> = loose.iter().enumerate().flat_map(of_row).collect();
         let row = |i: usize, sign: f64| -> Vec<(u32, f64)> {
-            let inside = point.row_in_sizes(i).filter(|&(j, value)| place[j] != u32::MAX && value != 0.0);
-            let scaled: Vec<_> = inside.map(|(j, value)| (place[j], sign * value * scale[place[j] as usize])).collect();
+            let inside =
+                point.row_in_sizes(i).filter(|&(_, value)| value != 0.0).filter_map(|(j, value)| Some((place(j)?, value)));
+            let scaled: Vec<_> = inside.map(|(at, value)| (at as u32, sign * value * scale[at])).collect();
             let length = scaled.iter().map(|entry| entry.1 * entry.1).sum::<f64>().sqrt();
             scaled.into_iter().map(|(j, value)| (j, value / length)).collect()
         };
         let inwards = |side: Side| if side == Side::Upper { -1.0 } else { 1.0 };
         let strict_rows: Vec<_> = strict.iter().map(|&i| row(i, 1.0)).collect();
-        let bounds = choice.weak_bounds.iter().map(|&j| vec![(place[j], inwards(active.bounds[j]))]);
+        let bounds =
+            choice.weak_bounds.iter().map(|&j| place(j).map(|at| (at as u32, inwards(active.bounds[j]))).into_iter().collect());
         let rows = choice.weak_rows.iter().map(|&i| row(i, inwards(active.rows[i])));
         let weak_rows: Vec<_> = bounds.chain(rows).collect();
         let (p, m, k) = (loose.len(), strict.len(), weak_rows.len());
@@ -66,11 +71,10 @@ impl<'a> Cone<'a> {
             rows.into_iter().enumerate().flat_map(entry).collect()
         };
         let (strict_rows, weak_rows) = (listed(strict_rows, p), listed(weak_rows, p + m));
-        let hessian: Vec<(u32, u32, f64)> = entries;
         let mut positions: Vec<(u32, u32)> = (0..(p + m + k) as u32).map(|at| (at, at)).collect();
-        positions.extend(hessian.iter().chain(&strict_rows).chain(&weak_rows).map(|entry| (entry.0, entry.1)));
+        positions.extend(entries.iter().chain(&strict_rows).chain(&weak_rows).map(|entry| (entry.0, entry.1)));
         let matrix = build(p + m + k, &positions)?;
-        Ok(Cone { point, loose, strict: m, weak: k, scale, hessian, strict_rows, weak_rows, matrix })
+        Ok(Cone { point, loose, strict: m, weak: k, scale, hessian: entries, strict_rows, weak_rows, matrix })
     }
 
     /// Whether Q, shifted, is positive on the null space of the strict rows, weakly active limits left aside: the sufficient test.

@@ -165,6 +165,22 @@ impl Hessian {
         Ok(hessian)
     }
 
+    /// The same as [`Hessian::bend`] for a direction in which no other variables move than these: of one of many components.
+    pub(in crate::certificate) fn bend_of(&self, point: &Point<'_>, variables: &[usize], direction: &[f64]) -> f64 {
+        let v = |j: usize| direction[j] / point.sizes[j];
+        let square: f64 = variables.iter().map(|&j| v(j) * v(j)).sum();
+        let pattern = &point.meta().hessian;
+        let of_row = |&row: &usize| {
+            let term = |at: usize| {
+                let column = pattern.columns[at] as usize;
+                let product = self.values[at] * v(row) * v(column);
+                if row == column { product } else { 2.0 * product }
+            };
+            pattern.range(row).map(term).sum::<f64>()
+        };
+        variables.iter().map(of_row).sum::<f64>() / square
+    }
+
     /// vᵀSv/|v|² over relative changes v of the variables, from a direction in the user's.
     pub(in crate::certificate) fn bend(&self, point: &Point<'_>, direction: &[f64]) -> f64 {
         let v: Vec<f64> = direction.iter().zip(&point.sizes).map(|(step, size)| step / size).collect();

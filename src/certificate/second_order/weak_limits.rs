@@ -36,7 +36,9 @@ pub(super) fn judge(
 ) -> Result<OnCone, FactorizationError> {
     if let Some(relaxed) = choice.relaxed() {
         match examine(point, active, hessian, &relaxed, build)? {
-            OnCone::Falls(direction) if is_near(point, hessian, &direction) => return Ok(OnCone::Falls(direction)),
+            OnCone::Falls(direction) if is_near(point, hessian, &relaxed.loose_variables(), &direction) => {
+                return Ok(OnCone::Falls(direction));
+            }
             OnCone::Falls(_) | OnCone::Undecided(_) => {}
             proved => return Ok(proved),
         }
@@ -44,12 +46,11 @@ pub(super) fn judge(
     if choice.weak() == 0 { Ok(OnCone::PROVED) } else { examine(point, active, hessian, choice, build) }
 }
 
-/// Whether the objective falls below the point's within a very small step.
-fn is_near(point: &Point<'_>, hessian: &Hessian, direction: &[f64]) -> bool {
-    let relative = |(step, size): (&f64, &f64)| (step / size).powi(2);
-    let square: f64 = direction.iter().zip(&point.sizes).map(relative).sum();
-    let slope: f64 = direction.iter().zip(&point.gradient).map(|(v, g)| v * g).sum::<f64>() / point.scale();
-    2.0 * slope <= -NEAREST * hessian.bend(point, direction) * square
+/// Whether the objective falls below the point's within a very small step along a direction of these variables.
+fn is_near(point: &Point<'_>, hessian: &Hessian, loose: &[usize], direction: &[f64]) -> bool {
+    let square: f64 = loose.iter().map(|&j| (direction[j] / point.sizes[j]).powi(2)).sum();
+    let slope: f64 = loose.iter().map(|&j| direction[j] * point.gradient[j]).sum::<f64>() / point.scale();
+    2.0 * slope <= -NEAREST * hessian.bend_of(point, loose, direction) * square
 }
 
 fn examine(
@@ -74,11 +75,11 @@ fn examine(
     match copositive::test(&reduced, k, FACES) {
         Verdict::Undecided => Ok(OnCone::Undecided(k)),
         Verdict::Falls(s) => {
-            let falls = |direction: &Vec<f64>| hessian.bend(point, direction) < 0.0;
+            let falls = |direction: &Vec<f64>| hessian.bend_of(point, &choice.loose_variables(), direction) < 0.0;
             Ok(cone.direction(&s)?.filter(falls).map_or(OnCone::Undecided(k), OnCone::Falls))
         }
         Verdict::Copositive => {
-            let flat = flat_directions(point, hessian, &cone, &reduced, k)?;
+            let flat = flat_directions((point, &choice.loose_variables()), hessian, &cone, &reduced, k)?;
             let is_strict =
                 cone.is_positive_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
             Ok(OnCone::Holds { is_strict, flat })
@@ -88,7 +89,7 @@ fn examine(
 
 /// Directions that leave weakly active limits and hardly bend: of single limits, of faces, of two and of all at once.
 fn flat_directions(
-    point: &Point<'_>,
+    (point, loose): (&Point<'_>, &[usize]),
     hessian: &Hessian,
     cone: &Cone<'_>,
     reduced: &[f64],
@@ -98,13 +99,13 @@ fn flat_directions(
     let faces = copositive::low_vectors(reduced, k, LOW, LOW_FACES);
     let mut flat = Vec::<Vec<f64>>::new();
     for s in faces.into_iter().chain((0..k).take(LOW_FACES).map(unit)) {
-        let direction = cone.direction(&s)?.filter(|direction| hessian.bend(point, direction).abs() <= FLAT);
+        let direction = cone.direction(&s)?.filter(|direction| hessian.bend_of(point, loose, direction).abs() <= FLAT);
         flat.extend(direction.filter(|direction| !flat.contains(direction)));
     }
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
     let single = flat.clone();
     for (i, a) in single.iter().enumerate() {
-        flat.extend(single[..i].iter().map(|b| sum(a, b)).filter(|both| hessian.bend(point, both).abs() <= FLAT));
+        flat.extend(single[..i].iter().map(|b| sum(a, b)).filter(|both| hessian.bend_of(point, loose, both).abs() <= FLAT));
     }
     if single.len() > 2 {
         flat.push(single[1..].iter().fold(single[0].clone(), |all, next| sum(&all, next)));
