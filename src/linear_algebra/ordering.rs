@@ -48,8 +48,7 @@ fn ordered(matrix: &CscMatrix, library: impl FnOnce(&CscPattern<'_>) -> Option<V
 
 /// Multiplications of factors in this order: the squares of the columns' lengths.
 fn operations(matrix: &CscMatrix, order: &[usize]) -> Option<f64> {
-    let mut turn = vec![0; matrix.n];
-    order.iter().enumerate().for_each(|(k, &j)| turn[j] = k);
+    let turn = turns(order);
     // The upper triangle by columns.
     let mut starts = vec![0; matrix.n + 1];
     couplings(matrix).for_each(|(i, j)| starts[turn[i].max(turn[j]) + 1] += 1);
@@ -69,10 +68,21 @@ fn operations(matrix: &CscMatrix, order: &[usize]) -> Option<f64> {
     Some(lengths.iter().map(|&length: &usize| (length as f64).powi(2)).sum())
 }
 
+/// The place of each unknown in an order.
+pub(super) fn turns(order: &[usize]) -> Vec<usize> {
+    let mut turns = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(k, &j)| turns[j] = k);
+    turns
+}
+
+/// (row, column) of every entry.
+pub(super) fn positions(matrix: &CscMatrix) -> impl Iterator<Item = (usize, usize)> {
+    (0..matrix.n).flat_map(|j| matrix.row_idx[matrix.col_ptr[j]..matrix.col_ptr[j + 1]].iter().map(move |&i| (i, j)))
+}
+
 /// The entries off the diagonal: (row, column), row > column.
 fn couplings(matrix: &CscMatrix) -> impl Iterator<Item = (usize, usize)> {
-    let of_column = |j: usize| matrix.row_idx[matrix.col_ptr[j]..matrix.col_ptr[j + 1]].iter().map(move |&i| (i, j));
-    (0..matrix.n).flat_map(of_column).filter(|(i, j)| i != j)
+    positions(matrix).filter(|(i, j)| i != j)
 }
 
 /// Neighbours of each unknown.

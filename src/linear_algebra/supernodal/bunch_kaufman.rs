@@ -12,9 +12,9 @@ use faer::{Conj, MatMut, MatRef, Par, Side};
 use feral::CscMatrix;
 
 use super::super::guarded::Factors;
-use super::super::ordering::fill_reducing;
+use super::super::ordering::{fill_reducing, positions, turns};
 use super::compressed::Compressed;
-use super::{FactorizationError, Inertia, count, failed, parameters, pattern, positions, turns};
+use super::{FactorizationError, Inertia, count, failed, parameters, pattern};
 
 /// Sweeps of scaling: each halves the logarithms of the rows' largest entries (Ruiz, RAL-TR-2001-034), 10¹⁶ comes to within 3.
 const SWEEPS: usize = 5;

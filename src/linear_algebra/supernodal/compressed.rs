@@ -9,7 +9,8 @@ use feral::CscMatrix;
 use feral::scaling::mc64_matching;
 use feral::symbolic::ldlt_compress::{SuperMap, build_supermap, expand_permutation};
 
-use super::{FactorizationError, failed, positions};
+use super::super::ordering::positions;
+use super::{FactorizationError, failed};
 
 /// Unknowns alone and in pairs.
 pub(super) struct Compressed {

@@ -11,7 +11,6 @@ pub(super) use quasi_definite::QuasiDefiniteSolver;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::CholeskySymbolicParams;
-use feral::CscMatrix;
 
 use super::{FactorizationError, Inertia};
 
@@ -25,18 +24,6 @@ fn parameters<'a>() -> CholeskySymbolicParams<'a> {
 /// A lower triangle by columns, rows ascending, as the library takes it.
 fn pattern<'a>(starts: &'a [usize], rows: &'a [usize]) -> SymbolicSparseColMatRef<'a, usize> {
     SymbolicSparseColMatRef::new_checked(starts.len() - 1, starts.len() - 1, starts, None, rows)
-}
-
-/// (row, column) of every entry.
-fn positions(matrix: &CscMatrix) -> impl Iterator<Item = (usize, usize)> {
-    (0..matrix.n).flat_map(|j| matrix.row_idx[matrix.col_ptr[j]..matrix.col_ptr[j + 1]].iter().map(move |&i| (i, j)))
-}
-
-/// The place of each unknown in an order.
-fn turns(order: &[usize]) -> Vec<usize> {
-    let mut turns = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(k, &j)| turns[j] = k);
-    turns
 }
 
 /// Counts a pivot; an error where it is lost in rounding: one of the entries of L below it is larger than this.

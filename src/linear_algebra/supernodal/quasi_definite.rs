@@ -13,8 +13,8 @@ use faer::{Conj, MatMut, Par, Side};
 use feral::CscMatrix;
 
 use super::super::guarded::Factors;
-use super::super::ordering::fill_reducing;
-use super::{FactorizationError, Inertia, count, failed, parameters, pattern, turns};
+use super::super::ordering::{fill_reducing, turns};
+use super::{FactorizationError, Inertia, count, failed, parameters, pattern};
 
 /// Entries of L beyond 1/√ε tell of a pivot that is lost in rounding (Gill, Saunders & Shinnerl, SIAM J. Matrix Anal. Appl. 17, 1996).
 const LARGEST: f64 = 6.7e7;
