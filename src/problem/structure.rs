@@ -5,6 +5,7 @@
 mod loads;
 
 use super::Dimension;
+use crate::structure::Components;
 pub use loads::{Action, Axes, Combination, Load};
 
 /// The space a structure lives in, and so the directions in which its nodes can move.
@@ -173,6 +174,19 @@ impl Member {
     pub fn at_node(&self, row: &[f64; 12], node: u32, direction: usize) -> f64 {
         let at = |end: usize, own: u32| if own == node { row[6 * end + direction] } else { 0.0 };
         at(0, self.start) + at(1, self.end)
+    }
+
+    /// The section's properties, beside the area, by which it deforms under the basic forces that it carries.
+    pub fn deforms_by(&self, carried: &Components) -> impl Iterator<Item = &'static str> {
+        let (about_z, about_y) = (carried[1] || carried[2], carried[3] || carried[4]);
+        let named =
+            [(about_y, "Ix"), (about_z, "Iy"), (carried[5], "J"), (self.shear && about_y, "Asy"), (self.shear && about_z, "Asx")];
+        named.into_iter().filter(|(needed, _)| *needed).map(|(_, name)| name)
+    }
+
+    /// Whether it deforms by the shear modulus, too.
+    pub fn needs_shear_modulus(&self, carried: &Components) -> bool {
+        carried[5] || (self.shear && carried[1..5].contains(&true))
     }
 }
 

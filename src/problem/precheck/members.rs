@@ -134,16 +134,8 @@ impl Site<'_> {
     fn needs(&self, at: u32, warped: bool) -> Vec<&'static str> {
         let member = &self.structure.members[at as usize];
         let carried = self.carried(at);
-        let (about_z, about_y, torque) = (carried[1] || carried[2], carried[3] || carried[4], carried[5]);
-        let named = [
-            (about_y, "Ix"),
-            (about_z, "Iy"),
-            (torque, "J"),
-            (member.shear && about_y, "Asy"),
-            (member.shear && about_z, "Asx"),
-            (warped && about_y, "height"),
-        ];
-        named.into_iter().filter(|(needed, _)| *needed).map(|(_, name)| name).collect()
+        let gradient = (warped && (carried[3] || carried[4])).then_some("height");
+        member.deforms_by(&carried).chain(gradient).collect()
     }
 
     /// Which basic forces a member carries: N, Mz and My at both ends, T.
@@ -159,8 +151,7 @@ impl Site<'_> {
         let mut twisted = vec![None; count];
         for at in 0..self.structure.members.len() as u32 {
             let member = &self.structure.members[at as usize];
-            let carried = self.carried(at);
-            if carried[5] || (member.shear && carried[1..5].contains(&true)) {
+            if member.needs_shear_modulus(&self.carried(at)) {
                 twisted[member.material as usize].get_or_insert(at);
             }
         }
