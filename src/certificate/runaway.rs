@@ -39,26 +39,7 @@ pub(super) fn find(
     if class == Class::Linear {
         return Runaway::default();
     }
-    let choice = Choice::all(point, active);
-    let is_open = !is_closed(point.meta());
-    let directions = if is_open { directions(point, hessian, &choice, dependent) } else { Vec::new() };
-    let found = if !is_open {
-        None
-    } else if choice.free.len() + choice.held.len() <= LARGEST {
-        // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
-        // variable that seems to rest on its bound.
-        let held = |rows: Vec<usize>| held_rows(point, rows);
-        let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
-        let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
-        follow(point, active, &directions, (&free, &strict), tolerances)
-            .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
-            .or_else(|| {
-                (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?
-            })
-            .or_else(|| one_released(point, active, (&free, &all), dependent, tolerances))
-    } else {
-        follow(point, active, &directions, (&[], &[]), tolerances)
-    };
+    let found = if is_closed(point.meta()) { None } else { way_outwards(point, active, hessian, dependent, tolerances) };
     match found {
         Some((direction, fall)) => {
             Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
@@ -66,6 +47,30 @@ pub(super) fn find(
         None if asymptote::is_level(point) => Runaway::settling(asymptote::moved_most(point)),
         None => Runaway::settling(asymptote::towards_bounds(point, active, tolerances.constraint)),
     }
+}
+
+/// A way along which the objective falls for ever.
+fn way_outwards(
+    point: &Point<'_>,
+    active: &Active<'_>,
+    hessian: &Hessian,
+    dependent: bool,
+    tolerances: &Tolerances,
+) -> Option<(Vec<f64>, Fall)> {
+    let choice = Choice::all(point, active);
+    let directions = directions(point, hessian, &choice, dependent);
+    if choice.free.len() + choice.held.len() > LARGEST {
+        return follow(point, active, &directions, (&[], &[]), tolerances);
+    }
+    // Far out, multipliers may be too small to tell which rows push; and of limits that depend on one another a row may need a
+    // variable that seems to rest on its bound.
+    let held = |rows: Vec<usize>| held_rows(point, rows);
+    let (free, strict, all) = (choice.loose_variables(), held(choice.strict_rows()), held(choice.held.clone()));
+    let movable = || (0..point.x.len()).filter(|&j| !point.meta().is_fixed(j)).collect::<Vec<usize>>();
+    follow(point, active, &directions, (&free, &strict), tolerances)
+        .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
+        .or_else(|| (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?)
+        .or_else(|| one_released(point, active, (&free, &all), dependent, tolerances))
 }
 
 /// Outwards in a variable that is far from its start, with one of those that seem to rest on bounds led back to the rows, the others (slacks

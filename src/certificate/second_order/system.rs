@@ -183,13 +183,8 @@ impl Hessian {
 
     /// vᵀSv/|v|² over relative changes v of the variables, from a direction in the user's.
     pub(in crate::certificate) fn bend(&self, point: &Point<'_>, direction: &[f64]) -> f64 {
-        let v: Vec<f64> = direction.iter().zip(&point.sizes).map(|(step, size)| step / size).collect();
-        let square: f64 = v.iter().map(|v| v * v).sum();
-        let term = |(at, (row, column)): (usize, (usize, usize))| {
-            let product = self.values[at] * v[row] * v[column];
-            if row == column { product } else { 2.0 * product }
-        };
-        point.meta().hessian.iter().enumerate().map(term).sum::<f64>() / square
+        let moving: Vec<usize> = (0..direction.len()).filter(|&j| direction[j] != 0.0).collect();
+        self.bend_of(point, &moving, direction)
     }
 }
 
