@@ -63,10 +63,14 @@ impl Attempts {
         let cold = InitialPoint { magnitudes: &magnitudes, ..InitialPoint::at(&x) };
         let warm = InitialPoint { multipliers: Some(&multipliers), ..cold };
         // Where the answer is as good in the new scales there is nothing to mend.
-        let enough = PARAMETERS.epsilon_tol.max(engine.state.errors.largest());
+        let enough = PARAMETERS.attempts.good_enough.max(engine.state.errors.largest());
         match warm.error_as_answer(model)? {
             error if error <= enough => Ok(None),
-            error if error <= PARAMETERS.epsilon_acceptable => begin(model, warm),
+            error if error <= PARAMETERS.epsilon_acceptable => {
+                // What is nearly solved in scales that fit is solved by one more run; variables that are nothing but rounding never fit.
+                self.rescaled = PARAMETERS.attempts.most_rescaled;
+                begin(model, warm)
+            }
             _ => begin(model, cold),
         }
     }

@@ -191,6 +191,8 @@ pub struct Attempts {
     pub outgrown: f64,
     /// A variable's scale shrinks to this share at the most.
     pub smallest_share: f64,
+    /// E₀ in new scales up to which an answer is as good there as any solver's.
+    pub good_enough: f64,
     /// Runs in new scales at the most.
     pub most_rescaled: usize,
     /// Runs from elsewhere: the share of the way towards the middle of the bounds, and μ₀.
@@ -205,6 +207,7 @@ impl Attempts {
     pub(super) const DEFAULT: Self = Attempts {
         outgrown: 1e3,
         smallest_share: 1e-8,
+        good_enough: 1e-8,
         most_rescaled: 3,
         elsewhere: [(0.1, 1.0), (0.5, 10.0)],
         ease: 1e-9,
