@@ -9,13 +9,16 @@ use crate::math::within;
 use crate::problem::mistake_code::MistakeCode;
 use crate::problem::resolve::Value;
 use crate::problem::words::brief;
-use crate::problem::{Formula, Origin};
+use crate::problem::{Formula, Origin, Variables};
 
 /// Elements of all arrays together.
 const LARGEST: f64 = 1e8;
 
 /// Memory a variable takes from reading to solving, at the least: 3.0 GB were measured for `check` of sum(x) over 1e7.
 const BYTES: f64 = 300.0;
+
+/// What sums of a thousand terms may leave of 0, beside the largest of them.
+const ROUNDED: f64 = 1e3 * f64::EPSILON;
 
 /// Moved starts named one by one; further ones are counted.
 const NAMED: usize = 10;
@@ -152,9 +155,28 @@ impl Assembly<'_> {
                 }
             }
         }
+        self.forget_rounding();
         if moved > NAMED {
             let message = format!("{} more starts outside their bounds were moved to the nearest point inside", moved - NAMED);
             self.findings.warning(MistakeCode::StartMoved, Place::Whole, message, None);
+        }
+    }
+
+    /// Of an array's starts, those that are nothing beside the largest tell no size: displacements or forces that were computed, and would be 0 but for
+    /// rounding. Where 0 is a bound, or beyond one, they are meant.
+    fn forget_rounding(&mut self) {
+        let Variables { origin, declared, lower, upper, typical, .. } = &mut self.problem.variables;
+        let arrays: Vec<(usize, usize)> = origin
+            .iter()
+            .enumerate()
+            .filter_map(|(j, origin)| if let Origin::Element(entry, _) = *origin { Some((j, entry as usize)) } else { None })
+            .collect();
+        let mut largest = vec![0.0f64; declared.len()];
+        arrays.iter().for_each(|&(j, entry)| largest[entry] = largest[entry].max(typical[j]));
+        for (j, entry) in arrays {
+            if typical[j] <= ROUNDED * largest[entry] && lower[j] < 0.0 && upper[j] > 0.0 {
+                typical[j] = 0.0;
+            }
         }
     }
 }
