@@ -45,6 +45,12 @@ pub(super) fn nearest(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64
     is_met.then_some(back)
 }
 
+/// Whether a point within `reach` of the variables' sizes meets every row to this tolerance of its own terms, however large the model.
+pub(super) fn is_met_beside(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64) -> bool {
+    let back = |point: Point<'_>| way_back(&point, x.to_vec(), reach, &|at| worst_violation(at).1 <= tolerance);
+    Point::new(origin, x).is_ok_and(|point| back(point).is_some())
+}
+
 /// The worst relative violation and where.
 pub(super) fn worst_violation(point: &Point<'_>) -> Worst {
     let rows = (0..point.rows.len()).map(|i| (Place::Row(i), point.row_violation(i)));

@@ -71,8 +71,7 @@ fn refined(
     feasibility: &Feasibility,
     tolerances: &Tolerances,
 ) -> Option<(Multipliers, Certificate)> {
-    let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
-    if residual(&offer.1) > REFINABLE {
+    if offer.1.residual() > REFINABLE {
         return None;
     }
     let refined = multipliers::refined(point, &offer.0).map(|refined| {
@@ -80,7 +79,7 @@ fn refined(
         (refined, certificate)
     });
     let best = match refined {
-        Some(refined) if residual(&refined.1) <= residual(&offer.1) => refined,
+        Some(refined) if refined.1.residual() <= offer.1.residual() => refined,
         _ => offer,
     };
     is_stationary(&best.1, tolerances).then_some(best)

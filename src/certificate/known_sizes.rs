@@ -33,10 +33,14 @@ pub(super) fn known_sizes(origin: &Origin<'_>, x: &[f64], jacobian: &[f64]) -> V
 
 /// What is known of the variables' sizes where a model starts; `None` where it has no derivatives there.
 pub fn sizes_at_start(model: &dyn Model) -> Option<Vec<f64>> {
-    let meta = model.meta();
-    let mut jacobian = vec![0.0; meta.jacobian.len()];
-    model.jacobian(&meta.start, &mut jacobian).ok()?;
-    Some(known_sizes(&Origin::new(model), &meta.start, &jacobian))
+    sizes_known_at(model, &model.meta().start)
+}
+
+/// The same at any point x, whose own magnitude tells nothing.
+pub fn sizes_known_at(model: &dyn Model, x: &[f64]) -> Option<Vec<f64>> {
+    let mut jacobian = vec![0.0; model.meta().jacobian.len()];
+    model.jacobian(x, &mut jacobian).ok()?;
+    Some(known_sizes(&Origin::new(model), x, &jacobian))
 }
 
 /// The sizes of the variables with those far away held back to [`FAR`] times what is known of them.

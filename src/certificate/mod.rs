@@ -4,8 +4,10 @@
 
 mod alternative;
 mod asymptote;
+mod bounded;
 mod candidates;
 mod elsewhere;
+mod every_test;
 mod far_slopes;
 mod farkas;
 mod feasibility;
@@ -49,7 +51,7 @@ use crate::model::{Class, EvaluationError, Model};
 use crate::recession::Ray;
 pub use alternative::contradicting;
 pub use farkas::{Contradiction, contradiction};
-pub use known_sizes::sizes_at_start;
+pub use known_sizes::{sizes_at_start, sizes_known_at};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;
@@ -121,7 +123,8 @@ impl<'a> Certifier<'a> {
         let mut point = Point::new(&self.origin, x).ok()?;
         let feasibility = feasibility::of(&point, self.tolerances.constraint);
         let (multipliers, found) = first_order::found(&mut point, None, &feasibility, &self.tolerances);
-        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers };
+        let nearly_weak = residuals::nearly_weak(&point, &multipliers, found.dual_infeasibility);
+        let active = Active { rows: &found.row_sides, bounds: &found.bound_sides, multipliers: &multipliers, nearly_weak };
         let is_feasible = found.is_feasible(&self.tolerances);
         is_feasible.then(|| runaway::beyond(&point, &active, self.class, &self.tolerances)).flatten()
     }
@@ -129,6 +132,12 @@ impl<'a> Certifier<'a> {
     /// `x` where it meets every limit, else a point that does within `reach` of the variables' sizes there, by Newton's steps.
     pub fn nearest_feasible(&self, x: &[f64], reach: f64) -> Option<Vec<f64>> {
         feasibility::nearest(&self.origin, x, reach, self.tolerances.constraint)
+    }
+
+    /// Whether a point within `reach` of the variables' sizes meets the rows to this tolerance, relative to their terms: whether what `x` misses them
+    /// by is a solver's rounding, not a contradiction of theirs.
+    pub fn is_met_beside(&self, x: &[f64], reach: f64, tolerance: f64) -> bool {
+        feasibility::is_met_beside(&self.origin, x, reach, tolerance)
     }
 
     /// Judges `x`; see [`certify`].
@@ -186,7 +195,8 @@ impl<'a> Certifier<'a> {
         }
         self.hessian(point, &multipliers)?;
         for choice in idle_rows::choices(point, &idle, &multipliers)? {
-            let active = Active { rows, bounds, multipliers: &choice };
+            let nearly_weak = residuals::nearly_weak(point, &choice, certificate.dual_infeasibility);
+            let active = Active { rows, bounds, multipliers: &choice, nearly_weak };
             if residuals::complementarity(point, &choice, self.tolerances.optimality) > self.tolerances.optimality {
                 break;
             }
@@ -205,7 +215,8 @@ impl<'a> Certifier<'a> {
         multipliers: &Multipliers,
         certificate: &mut Certificate,
     ) -> Result<(), EvaluationError> {
-        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers };
+        let nearly_weak = residuals::nearly_weak(point, multipliers, certificate.dual_infeasibility);
+        let active = Active { rows: &certificate.row_sides, bounds: &certificate.bound_sides, multipliers, nearly_weak };
         if !is_stationary(certificate, &self.tolerances) {
             if certificate.is_feasible(&self.tolerances) {
                 certificate.multipliers_not_unique = second_order::is_dependent(point, &active);
@@ -280,20 +291,5 @@ impl<'a> Certifier<'a> {
     /// Whether ∇²L depends on the multipliers.
     fn bends_by_choice(&self, point: &Point<'_>, multipliers: &Multipliers) -> bool {
         multipliers.rows.iter().zip(&point.meta().row_is_linear).any(|(y, is_linear)| *y != 0.0 && !is_linear)
-    }
-
-    /// What the dense, the sparse and the component-wise second-order test say at `x`, whether it is stationary or not: the three
-    /// prove the same in different ways.
-    ///
-    /// # Errors
-    /// The model has no value or derivative at `x`.
-    pub fn second_order_by_every_test(&self, x: &[f64]) -> Result<[SecondOrder; 3], EvaluationError> {
-        let mut point = Point::new(&self.origin, x)?;
-        let multipliers = multipliers::find(&point, None);
-        let feasibility = feasibility::of(&point, self.tolerances.constraint);
-        let Certificate { row_sides, bound_sides, .. } = first_order::of(&point, &multipliers, &feasibility, &self.tolerances);
-        let active = Active { rows: &row_sides, bounds: &bound_sides, multipliers: &multipliers };
-        let hessian = self.hessian(&mut point, &multipliers)?;
-        Ok(second_order::by_every_test(&point, &active, &hessian))
     }
 }

@@ -95,7 +95,10 @@ parameters! {
         FLOOR: f64 = 1e-5;
         /// |y_i|·slope_i/σ ≤ WEAK, the accepted residual of ∂L/∂x_j: weakly active.
         WEAK: f64 = 1e-6;
-        /// ≤ NEARLY_WEAK: nearly so. A slope of 1e−6 makes up to 1e−4 of a multiplier where L bends by a hundredth, 1e−3 in a chain of two.
+        /// ≤ CONDITION·(the slope that is left), or √(multiplier·distance): nearly so. A slope of 1e−6 makes up to 1e−4 of a
+        /// multiplier where L bends by a hundredth, 1e−3 in a chain of two.
+        CONDITION: f64 = 1e3;
+        /// … but no more than this.
         NEARLY_WEAK: f64 = 1e-3;
         /// … and ≤ NEARLY_FLAT times the curvature about the limit.
         NEARLY_FLAT: f64 = 1e-2;
@@ -136,6 +139,10 @@ parameters! {
         STEPS: [f64; 15] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6];
         /// Chord steps back to the limits at each.
         CORRECTIONS: usize = 8;
+        /// … until they are ≤ SETTLED sizes …
+        SETTLED: f64 = 1e-12;
+        /// … or > SHRINKING times the one before.
+        SHRINKING: f64 = 0.5;
         /// Directions followed at the most …
         DIRECTIONS: usize = 24;
         /// … and the sum of orders of the systems solved for them.
@@ -201,6 +208,12 @@ parameters! {
         LARGEST: usize = 120;
         /// Above this order flat directions are those of single variables.
         LARGEST_FOR_DIRECTIONS: usize = 2_000;
+    }
+
+    /// Variables that linear rows keep from going on for ever.
+    bounded {
+        /// Coefficients ≤ LEAST·(the largest of the row) may be what rounding has left of 0.
+        LEAST: f64 = 1e-12;
     }
 
     /// Proofs that no point is feasible.

@@ -4,9 +4,11 @@ use super::known_sizes;
 use super::multipliers::Multipliers;
 use super::point::Point;
 use super::second_order;
+use crate::certificate::parameters::higher_order::NOISE;
 use crate::certificate::parameters::newton::LOWER;
 use crate::certificate::parameters::rounding::DIGITS;
 use crate::certificate::parameters::runaway::FAR;
+use crate::certificate::parameters::second_order::{CONDITION, NEARLY_WEAK};
 use crate::linear_algebra::Partition;
 use crate::model::{EvaluationError, Model};
 use crate::recession;
@@ -104,6 +106,13 @@ fn complementarity_terms<'a>(point: &'a Point<'_>, multipliers: &'a Multipliers)
     let rows = rows.map(move |(i, &y)| (Place::Row(i), term(y, point.rows[i], point.row_limit(i, y))));
     let bounds = multipliers.bounds.iter().enumerate();
     rows.chain(bounds.map(move |(j, &z)| (Place::Variable(j), term(z, point.x[j], point.bound(j, z)))))
+}
+
+/// Scaled multipliers up to which a limit is nearly weakly active, for want of a better solution: what a slope that is left makes of a multiplier that is
+/// 0 in truth depends on the conditioning; and one may be as large as its limit is far away.
+pub(super) fn nearly_weak(point: &Point<'_>, multipliers: &Multipliers, slope: f64) -> f64 {
+    let largest = complementarity_terms(point, multipliers).map(|term| term.1).fold(0.0, f64::max);
+    NEARLY_WEAK.min((CONDITION * slope.max(NOISE)).max(largest.sqrt()))
 }
 
 /// Their sum, and the largest of them.

@@ -2,6 +2,7 @@
 //! towards −∞), or because a term has no value at the bound it falls towards. Such an infimum is not attained.
 
 use super::asymptote;
+use super::bounded;
 use super::feasibility::{self, worst_violation};
 use super::known_sizes;
 use super::point::Point;
@@ -10,7 +11,6 @@ use super::{Class, Tolerances};
 use crate::certificate::parameters::runaway::{
     DIRECTIONS, FAR, FLAT, FOLLOWED, LARGEST, LARGEST_FOR_DIRECTIONS, OUTWARDS, PARALLEL,
 };
-use crate::model::Meta;
 use crate::recession::{self, Fall, Ray, Site, Valley};
 
 /// Variables along whose way the objective falls, however far one goes; none at a true minimum.
@@ -39,7 +39,9 @@ pub(super) fn find(
     if class == Class::Linear {
         return Runaway::default();
     }
-    let found = if is_closed(point.meta()) { None } else { way_outwards(point, active, hessian, dependent, tolerances) };
+    let open = bounded::open(point);
+    // A continuous objective attains its infimum on a compact set (Weierstrass).
+    let found = if open.is_empty() { None } else { way_outwards(point, active, hessian, (&open, dependent), tolerances) };
     match found {
         Some((direction, fall)) => {
             Runaway { variables: moving(point, &direction), is_endless: fall == Fall::Endless && may_be_endless(point, class) }
@@ -49,16 +51,17 @@ pub(super) fn find(
     }
 }
 
-/// A way along which the objective falls for ever.
+/// A way along which the objective falls for ever, outwards in one of the variables that are open.
 fn way_outwards(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
-    dependent: bool,
+    (open, dependent): (&[usize], bool),
     tolerances: &Tolerances,
 ) -> Option<(Vec<f64>, Fall)> {
     let choice = Choice::all(point, active);
-    let directions = directions(point, hessian, &choice, dependent);
+    let mut directions = directions(point, hessian, &choice, (open, dependent));
+    directions.retain(|direction| moves_most(point, direction).is_some_and(|j| open.binary_search(&j).is_ok()));
     if choice.free.len() + choice.held.len() > LARGEST {
         return follow(point, active, &directions, (&[], &[]), tolerances);
     }
@@ -70,7 +73,7 @@ fn way_outwards(
     follow(point, active, &directions, (&free, &strict), tolerances)
         .or_else(|| (all.len() > strict.len()).then(|| follow(point, active, &directions, (&free, &all), tolerances))?)
         .or_else(|| (dependent && !all.is_empty()).then(|| follow(point, active, &directions, (&movable(), &all), tolerances))?)
-        .or_else(|| one_released(point, active, (&free, &all), dependent, tolerances))
+        .or_else(|| one_released(point, active, (&free, &all), (open, dependent), tolerances))
 }
 
 /// Outwards in a variable that is far from its start, with one of those that seem to rest on bounds led back to the rows, the others (slacks
@@ -79,34 +82,22 @@ fn one_released(
     point: &Point<'_>,
     active: &Active<'_>,
     (free, held): (&[usize], &[(usize, f64)]),
-    dependent: bool,
+    (open, dependent): (&[usize], bool),
     tolerances: &Tolerances,
 ) -> Option<(Vec<f64>, Fall)> {
     if !dependent || held.is_empty() {
         return None;
     }
-    let axes: Vec<Vec<f64>> = far_out(point, free).take(OUTWARDS).map(|j| axis(point, j)).collect();
+    let axes: Vec<Vec<f64>> = far_out(point, free, open).take(OUTWARDS).map(|j| axis(point, j)).collect();
     let resting = (0..point.x.len()).filter(|j| !point.meta().is_fixed(*j) && !free.contains(j));
     let mut tried = resting.take(if axes.is_empty() { 0 } else { FOLLOWED });
     tried.find_map(|j| follow(point, active, &axes, (&[j], held), tolerances))
 }
 
 /// Open variables that are far from where they come from.
-fn far_out<'a>(point: &'a Point<'_>, free: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
-    let meta = point.meta();
-    let is_far = |&j: &usize| recession::is_farther(point.x[j], meta.start[j], FAR);
-    free.iter().copied().filter(|&j| is_open(meta, j)).filter(is_far)
-}
-
-/// Whether no variable can go on for ever: each has bounds, or is a state that the others bound. A continuous objective attains its infimum
-/// there (Weierstrass).
-fn is_closed(meta: &Meta) -> bool {
-    let bounded = |j: usize| !is_open(meta, j) || meta.states.is_some_and(|states| states.are_bounded && states.has(j));
-    (0..meta.variables()).all(bounded)
-}
-
-fn is_open(meta: &Meta, j: usize) -> bool {
-    meta.lower[j] == f64::NEG_INFINITY || meta.upper[j] == f64::INFINITY
+fn far_out<'a>(point: &'a Point<'_>, free: &'a [usize], open: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    let is_far = |&j: &usize| recession::is_farther(point.x[j], point.meta().start[j], FAR);
+    free.iter().copied().filter(|j| open.binary_search(j).is_ok()).filter(is_far)
 }
 
 /// One size of variable j.
@@ -229,6 +220,12 @@ fn is_alike(point: &Point<'_>, i: usize, k: usize) -> bool {
     }
 }
 
+/// The variable that a direction moves most, in units of its size.
+fn moves_most(point: &Point<'_>, direction: &[f64]) -> Option<usize> {
+    let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
+    (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))
+}
+
 /// The variables that take part in a direction.
 fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
     let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
@@ -238,9 +235,9 @@ fn moving(point: &Point<'_>, direction: &[f64]) -> Vec<usize> {
 
 /// Flat directions, each as it is and its variables that move most one by one; then the ways that have led here, from the start
 /// and from zero.
-fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: bool) -> Vec<Vec<f64>> {
+fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, (open, dependent): (&[usize], bool)) -> Vec<Vec<f64>> {
     let meta = point.meta();
-    let is_open = |&j: &usize| is_open(meta, j);
+    let is_open = |j: &usize| open.binary_search(j).is_ok();
     let (mut found, mut axes) = (Vec::new(), Vec::new());
     if choice.free.len() + choice.held.len() <= LARGEST_FOR_DIRECTIONS {
         let (free, held) = (choice.loose_variables(), choice.strict_rows());
@@ -248,9 +245,9 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: 
             .and_then(|mut kkt| if kkt.is_flat(FLAT)? { kkt.flat_directions(DIRECTIONS, FLAT) } else { Ok(Vec::new()) });
         for direction in flat.unwrap_or_default() {
             let share = |j: &usize| (direction[*j] / point.sizes[*j]).abs();
-            let mut open: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
-            open.sort_by(|a, b| share(b).total_cmp(&share(a)));
-            axes.extend(open.into_iter().take(2));
+            let mut most: Vec<usize> = free.iter().copied().filter(is_open).filter(|j| share(j) >= 0.1).collect();
+            most.sort_by(|a, b| share(b).total_cmp(&share(a)));
+            axes.extend(most.into_iter().take(2));
             found.push(direction);
         }
         if !found.is_empty() || point.relies_on_curvature {
@@ -258,7 +255,7 @@ fn directions(point: &Point<'_>, hessian: &Hessian, choice: &Choice, dependent: 
             found.push(point.x.to_vec());
         }
         // Of limits that depend on one another, a row may only seem to hold a variable far from where it comes from.
-        axes.extend(far_out(point, &free).take(if dependent { OUTWARDS } else { 0 }));
+        axes.extend(far_out(point, &free, open).take(if dependent { OUTWARDS } else { 0 }));
     } else {
         let mut flat: Vec<usize> = choice.free.iter().copied().filter(is_open).filter(|&j| hessian.size[j] <= FLAT).collect();
         flat.sort_by(|&a, &b| hessian.size[a].total_cmp(&hessian.size[b]));

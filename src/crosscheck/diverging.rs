@@ -3,7 +3,7 @@
 use super::Answer;
 use super::session::{Session, Solver};
 use super::work;
-use crate::certificate::{Certificate, sizes_at_start};
+use crate::certificate::{Certificate, sizes_at_start, sizes_known_at};
 use crate::model::{Class, Model, WithBounds};
 use crate::recession::{Fall, Ray, Terrain, is_farther, size};
 
@@ -144,12 +144,15 @@ fn is_beside(own: &Certificate, x: &[f64], other: &[f64]) -> bool {
 }
 
 /// Whether a point lies so far from the start that rounding may hide a violation of the rows. States follow from the design, and may start next to
-/// nothing by chance.
+/// nothing by chance; a bent row's slope at the start may tell of a variable what holds only there (of the displacement of a bar that becomes slender).
 pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let meta = session.task.model.meta();
     let design = meta.states.map_or(x.len(), |states| states.first_variable);
     let sizes = sizes_at_start(session.task.model).unwrap_or_else(|| meta.start.iter().copied().map(size).collect());
-    (0..design).any(|j| (x[j] - meta.start[j]).abs() > TOO_FAR * sizes[j])
+    let way = |j: usize| (x[j] - meta.start[j]).abs();
+    let far: Vec<usize> = (0..design).filter(|&j| way(j) > TOO_FAR * sizes[j]).collect();
+    let at_x = if far.is_empty() { None } else { sizes_known_at(session.task.model, x) };
+    far.into_iter().any(|j| at_x.as_ref().is_none_or(|sizes| way(j) > TOO_FAR * sizes[j]))
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.

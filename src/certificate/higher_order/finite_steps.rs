@@ -12,7 +12,7 @@ use super::trial_point::Trial;
 use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::{
-    BESIDE, BEYOND_A_LIMIT, CORRECTIONS, DIRECTIONS, NEAR, NOISE, STEPS, STRETCH, WORK,
+    BESIDE, BEYOND_A_LIMIT, CORRECTIONS, DIRECTIONS, NEAR, NOISE, SETTLED, SHRINKING, STEPS, STRETCH, WORK,
 };
 use crate::certificate::point::Point;
 use crate::certificate::residuals::worst_complementarity;
@@ -93,7 +93,7 @@ struct Walk<'w, 'p> {
     held: Vec<usize>,
     may_be_left: Vec<bool>,
     kkt: Kkt<'w>,
-    /// The objective at the point, or its Lagrangian where that is lower, and the objective with what all distances to limits are
+    /// The objective at the point, or its Lagrangian (bounds included) where that is lower, and the objective with what all distances to limits are
     /// worth: going to a limit that is missed by a little is neither a fall nor a rise.
     here: (f64, f64),
     /// See [`slopes`].
@@ -123,7 +123,11 @@ impl<'w, 'p> Walk<'w, 'p> {
         let mut kkt = Kkt::new(point, hessian, &free, &held)?;
         kkt.factor_proximal()?;
         let multipliers = active.multipliers;
-        let balanced = Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers));
+        // Rows within their limits, and variables within their bounds, are a fall that first order has accepted.
+        let pushes = multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0);
+        let of_bounds: f64 = pushes.map(|(j, &z)| z * (point.x[j] - point.bound(j, z))).sum();
+        let balanced =
+            Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers)) + of_bounds;
         let worth = worst_complementarity(point, multipliers).1 * point.scale();
         let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
         Ok(Walk {
@@ -181,14 +185,12 @@ impl<'w, 'p> Walk<'w, 'p> {
                 return Way::Ends;
             }
             let far: Vec<f64> = point.x.iter().zip(direction).map(|(x, v)| x + sign * step * v).collect();
-            let Some(x) = self.corrected(far, step) else { continue };
-            let Some(trial) = Trial::at(point, &x) else { continue };
+            let Some(x) = self.corrected(far, step) else { return Way::Ends };
+            let Some(trial) = Trial::at(point, &x) else { return Way::Ends };
             if !trial.is_feasible(point, self.tolerances.constraint) {
-                // To first order what is feasible is a cone: where the shortest step cannot be drawn back to the limits no longer one can.
-                if step == STEPS[0] {
-                    return Way::Barred;
-                }
-                continue;
+                // To first order what is feasible is a cone: where the shortest step cannot be drawn back to the limits no longer one can. Where
+                // a longer one is the first that cannot, what lies beyond is another valley's.
+                return if step == STEPS[0] { Way::Barred } else { Way::Ends };
             }
             let value = trial.penalised(point, self.multipliers);
             let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
@@ -231,7 +233,7 @@ impl<'w, 'p> Walk<'w, 'p> {
     /// from there on towards the limits alone.
     fn corrected(&self, mut x: Vec<f64>, length: f64) -> Option<Vec<f64>> {
         let (point, meta) = (self.point, self.point.meta());
-        let mut descends = true;
+        let (mut descends, mut last) = (true, f64::INFINITY);
         meta.clamp(&mut x);
         self.resting.iter().for_each(|&(j, bound)| x[j] = bound);
         for _ in 0..CORRECTIONS {
@@ -252,9 +254,11 @@ impl<'w, 'p> Walk<'w, 'p> {
             if !longest.is_finite() {
                 return None;
             }
-            if longest < 1e-12 {
+            // Steps that do not shrink by half are pulled to and fro by limits that depend on one another.
+            if longest < SETTLED || longest > SHRINKING * last {
                 break;
             }
+            last = longest;
         }
         Some(x)
     }

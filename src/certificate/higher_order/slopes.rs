@@ -1,22 +1,17 @@
 //! The slopes that are left at a point, and which directions count as flat beside them.
 
-use crate::certificate::Side;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::{FLAT, NOISE};
 use crate::certificate::point::Point;
 use crate::certificate::second_order::{Active, Choice};
 
 /// Up to which curvature a direction counts as flat. Where f falls by a slope r along one and bends up by κ, there is a minimum ahead if κ² ≥ 2·f'''·r;
-/// FLAT is κ for the largest third derivative that is thought of and the largest accepted r, and less is enough for the slope that is left.
-/// Away from a bound that pushes back f rises, and so it does from a row whose multiplier has the right sign.
+/// FLAT is κ for the largest third derivative that is thought of and the largest accepted r, and less is enough for the slope that is left of ∇L: what
+/// a multiplier takes up falls no farther than to its limit.
 pub(super) fn flatness(point: &Point<'_>, active: &Active<'_>, choice: &Choice, accepted: f64) -> f64 {
     let slopes = point.row_gradient(&active.multipliers.rows);
-    let falls = |j: usize| match active.bounds[j] {
-        Side::Lower => (-slopes[j]).max(0.0),
-        Side::Upper => slopes[j].max(0.0),
-        Side::None | Side::Equal => slopes[j].abs(),
-    };
-    let fall = choice.loose_variables().into_iter().map(|j| falls(j) * point.sizes[j] / point.scale()).fold(NOISE, f64::max);
+    let left = |j: usize| (slopes[j] + active.multipliers.bounds[j]).abs() * point.sizes[j] / point.scale();
+    let fall = choice.loose_variables().into_iter().map(left).fold(NOISE, f64::max);
     FLAT * (fall / accepted).sqrt().min(1.0)
 }
 

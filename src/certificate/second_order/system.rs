@@ -2,7 +2,7 @@
 
 use crate::certificate::Side;
 use crate::certificate::multipliers::Multipliers;
-use crate::certificate::parameters::second_order::{FLOOR, NEARLY_FLAT, NEARLY_WEAK, WEAK};
+use crate::certificate::parameters::second_order::{FLOOR, NEARLY_FLAT, WEAK};
 use crate::certificate::point::Point;
 use crate::model::{EvaluationError, Model};
 
@@ -11,6 +11,8 @@ pub(in crate::certificate) struct Active<'a> {
     pub(in crate::certificate) rows: &'a [Side],
     pub(in crate::certificate) bounds: &'a [Side],
     pub(in crate::certificate) multipliers: &'a Multipliers,
+    /// Scaled multipliers up to which a limit is nearly weakly active.
+    pub(in crate::certificate) nearly_weak: f64,
 }
 
 /// Which variables and rows are looked at; all lists ascend.
@@ -98,7 +100,7 @@ impl Choice {
                 Side::None => self.free.push(j),
                 Side::Equal => {}
                 _ if share <= WEAK => self.weak_bounds.push(j),
-                _ if share <= NEARLY_WEAK.min(NEARLY_FLAT * curvature(j)) => self.nearly_weak_bounds.push(j),
+                _ if share <= active.nearly_weak.min(NEARLY_FLAT * curvature(j)) => self.nearly_weak_bounds.push(j),
                 _ => {}
             }
         }
@@ -109,7 +111,7 @@ impl Choice {
             match active.rows[i] {
                 Side::Equal => {}
                 _ if share <= WEAK => self.weak_rows.push(i),
-                _ if share <= NEARLY_WEAK && share <= NEARLY_FLAT * sharpest() => self.nearly_weak_rows.push(i),
+                _ if share <= active.nearly_weak && share <= NEARLY_FLAT * sharpest() => self.nearly_weak_rows.push(i),
                 _ => {}
             }
         }

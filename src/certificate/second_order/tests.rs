@@ -100,7 +100,7 @@ fn verdicts(model: &Blocks) -> [bool; 3] {
     point.sigma = 1.0;
     let multipliers = Multipliers { rows: vec![0.0; BLOCKS], bounds: vec![0.0; 2 * BLOCKS] };
     let (rows, bounds) = (vec![Side::Equal; BLOCKS], vec![Side::None; 2 * BLOCKS]);
-    let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers };
+    let active = Active { rows: &rows, bounds: &bounds, multipliers: &multipliers, nearly_weak: 1e-3 };
     let hessian = Hessian::of(&point, &multipliers).unwrap();
     let Choice { free, held, .. } = Choice::all(&point, &active);
     assert_eq!((free.len(), held.len()), (2 * BLOCKS, BLOCKS));
