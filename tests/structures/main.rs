@@ -1,6 +1,7 @@
 //! Structures against closed forms.
 
 mod determinate;
+mod forms;
 mod models;
 mod modes;
 mod tasks;
