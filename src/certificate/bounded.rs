@@ -1,6 +1,7 @@
 //! Variables that bounds and linear rows keep from going on for ever: where they keep all, feasible sets are compact.
 //!
-//! A linear row closes the end of a variable that is the only one left to give way in it (propagation). What is open after that is bounded by
+//! A way that never rises stays below the objective's value at the point, which is one more row where the objective is linear (slacks that are summed
+//! up are bounded by it). A linear row closes the end of a variable that is the only one left to give way in it (propagation). What is open after that is bounded by
 //! rows with limits on both sides where these determine it: where R has full column rank, no v but a bounded one leaves R·v bounded.
 
 use super::parameters::bounded::LEAST;
@@ -41,11 +42,13 @@ impl Rows {
     fn linear(point: &Point<'_>) -> Rows {
         let meta = point.meta();
         let row = |i: usize| Row {
-            entries: entries(point, i).collect(),
+            entries: entries(point, i),
             has_lower: meta.row_lower[i].is_finite(),
             has_upper: meta.row_upper[i].is_finite(),
         };
-        let rows: Vec<Row> = (0..meta.rows()).filter(|&i| meta.is_row_linear(i)).map(row).collect();
+        let level = Row { entries: significant(point.gradient.iter().copied().enumerate()), has_lower: false, has_upper: true };
+        let level = Some(level).filter(|_| meta.objective_is_linear);
+        let rows: Vec<Row> = (0..meta.rows()).filter(|&i| meta.is_row_linear(i)).map(row).chain(level).collect();
         let mut of_variable = vec![Vec::new(); meta.variables()];
         for (k, row) in rows.iter().enumerate() {
             row.entries.iter().for_each(|&(j, _)| of_variable[j].push(k));
@@ -54,12 +57,16 @@ impl Rows {
     }
 }
 
-/// The coefficients of a linear row that are more than what rounding may have left of 0.
-fn entries<'p>(point: &'p Point<'_>, i: usize) -> impl Iterator<Item = (usize, f64)> + 'p {
+/// The coefficients of a linear row.
+fn entries(point: &Point<'_>, i: usize) -> Vec<(usize, f64)> {
     let jacobian = &point.meta().jacobian;
-    let largest = jacobian.range(i).fold(0.0, |most: f64, at| most.max(point.jacobian[at].abs()));
-    let entry = |at: usize| (jacobian.columns[at] as usize, point.jacobian[at]);
-    jacobian.range(i).map(entry).filter(move |entry| entry.1.abs() > LEAST * largest)
+    significant(jacobian.range(i).map(|at| (jacobian.columns[at] as usize, point.jacobian[at])))
+}
+
+/// Coefficients that are more than what rounding may have left of 0.
+fn significant(coefficients: impl Iterator<Item = (usize, f64)> + Clone) -> Vec<(usize, f64)> {
+    let largest = coefficients.clone().fold(0.0, |most: f64, entry| most.max(entry.1.abs()));
+    coefficients.filter(|entry| entry.1.abs() > LEAST * largest).collect()
 }
 
 /// Which ends of the variables are known to be finite: [below, above].
@@ -119,7 +126,7 @@ fn are_determined(point: &Point<'_>, open: &[usize]) -> Result<bool, Factorizati
     let mut values = Vec::new();
     let mut count = 0u32;
     for i in (0..meta.rows()).filter(is_two_sided) {
-        let own = entries(point, i).filter_map(|(j, a)| open.binary_search(&j).ok().map(|place| (place as u32, a)));
+        let own = entries(point, i).into_iter().filter_map(|(j, a)| open.binary_search(&j).ok().map(|place| (place as u32, a)));
         let own: Vec<(u32, f64)> = own.collect();
         let largest = own.iter().fold(0.0, |most: f64, entry| most.max(entry.1.abs()));
         if largest > 0.0 {
@@ -186,6 +193,19 @@ mod tests {
         assert_eq!(open_of(&two().row(-1.0, 1.0, |x| x[0] + x[1]).row(-1.0, 1.0, |x| (x[0] + x[1]) * 2.0).linear()), [0, 1]);
         assert_eq!(open_of(&two().row(-1.0, 1.0, |x| x[0] + x[1]).row(-OPEN, 1.0, |x| x[0] - x[1]).linear()), [0, 1]);
         assert_eq!(open_of(&two().row(-1.0, 1.0, |x| x[0] + x[1]).row(-1.0, 1.0, |x| x[0] - x[1])), [0, 1]);
+    }
+
+    #[test]
+    fn slacks_are_bounded_by_the_sum_that_is_minimised_and_so_are_the_rows_they_give_way_to() {
+        // −1 − s ≤ u ≤ 1 + s, s ≥ 0.
+        let elastic = |maximised: f64| {
+            let mut model = Sample::new(&[0.0, 1.0], move |x| x[1] * maximised).bounds(&[-OPEN, 0.0], &[OPEN, OPEN]);
+            model = model.row(-OPEN, 1.0, |x| x[0] - x[1]).row(-1.0, OPEN, |x| x[0] + x[1]).linear();
+            model.meta.objective_is_linear = true;
+            model
+        };
+        assert!(open_of(&elastic(1.0)).is_empty());
+        assert_eq!(open_of(&elastic(-1.0)), [0, 1]);
     }
 
     #[test]

@@ -11,7 +11,8 @@ type Function = Box<dyn Fn(&[Value]) -> Value + Send + Sync>;
 
 /// A model put together by hand.
 pub(crate) struct Sample {
-    meta: Meta,
+    /// What is known of it.
+    pub meta: Meta,
     objective: Function,
     rows: Vec<Function>,
 }
