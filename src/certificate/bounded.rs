@@ -15,11 +15,13 @@ use crate::model::Meta;
 pub(super) fn open(point: &Point<'_>) -> Vec<usize> {
     let meta = point.meta();
     let mut ends = Ends::of(meta);
-    if !ends.open().is_empty() {
-        ends.propagate(&Rows::linear(point));
+    if ends.open().is_empty() {
+        return Vec::new();
     }
+    let rows = Rows::linear(point);
+    ends.propagate(&rows);
     let open = ends.open();
-    match !open.is_empty() && are_determined(point, &open).unwrap_or(false) {
+    match are_determined(point, &rows, &open).unwrap_or(false) {
         true => Vec::new(),
         false => open,
     }
@@ -46,8 +48,8 @@ impl Rows {
             has_lower: meta.row_lower[i].is_finite(),
             has_upper: meta.row_upper[i].is_finite(),
         };
-        let level = Row { entries: significant(point.gradient.iter().copied().enumerate()), has_lower: false, has_upper: true };
-        let level = Some(level).filter(|_| meta.objective_is_linear);
+        let gradient = || significant(point.gradient.iter().copied().enumerate());
+        let level = meta.objective_is_linear.then(|| Row { entries: gradient(), has_lower: false, has_upper: true });
         let rows: Vec<Row> = (0..meta.rows()).filter(|&i| meta.is_row_linear(i)).map(row).chain(level).collect();
         let mut of_variable = vec![Vec::new(); meta.variables()];
         for (k, row) in rows.iter().enumerate() {
@@ -119,14 +121,12 @@ impl Ends {
 
 /// Whether linear rows with limits on both sides determine these variables when all others are known: [I R; Rᵀ εI] has a negative eigenvalue for every
 /// singular value of R beyond √ε.
-fn are_determined(point: &Point<'_>, open: &[usize]) -> Result<bool, FactorizationError> {
-    let meta = point.meta();
-    let is_two_sided = |&i: &usize| meta.is_row_linear(i) && meta.row_lower[i].is_finite() && meta.row_upper[i].is_finite();
+fn are_determined(point: &Point<'_>, rows: &Rows, open: &[usize]) -> Result<bool, FactorizationError> {
     let mut positions = Vec::new();
     let mut values = Vec::new();
     let mut count = 0u32;
-    for i in (0..meta.rows()).filter(is_two_sided) {
-        let own = entries(point, i).into_iter().filter_map(|(j, a)| open.binary_search(&j).ok().map(|place| (place as u32, a)));
+    for row in rows.rows.iter().filter(|row| row.has_lower && row.has_upper) {
+        let own = row.entries.iter().filter_map(|&(j, a)| open.binary_search(&j).ok().map(|place| (place as u32, a)));
         let own: Vec<(u32, f64)> = own.collect();
         let largest = own.iter().fold(0.0, |most: f64, entry| most.max(entry.1.abs()));
         if largest > 0.0 {

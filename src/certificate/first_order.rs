@@ -71,7 +71,8 @@ fn refined(
     feasibility: &Feasibility,
     tolerances: &Tolerances,
 ) -> Option<(Multipliers, Certificate)> {
-    if offer.1.residual() > REFINABLE {
+    let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
+    if residual(&offer.1) > REFINABLE {
         return None;
     }
     let refined = multipliers::refined(point, &offer.0).map(|refined| {
@@ -79,7 +80,7 @@ fn refined(
         (refined, certificate)
     });
     let best = match refined {
-        Some(refined) if refined.1.residual() <= offer.1.residual() => refined,
+        Some(refined) if residual(&refined.1) <= residual(&offer.1) => refined,
         _ => offer,
     };
     is_stationary(&best.1, tolerances).then_some(best)

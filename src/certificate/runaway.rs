@@ -61,7 +61,9 @@ fn way_outwards(
 ) -> Option<(Vec<f64>, Fall)> {
     let choice = Choice::all(point, active);
     let mut directions = directions(point, hessian, &choice, (open, dependent));
-    directions.retain(|direction| moves_most(point, direction).is_some_and(|j| open.binary_search(&j).is_ok()));
+    directions.retain(|direction| {
+        recession::moves_most(direction, point.plain_sizes()).is_some_and(|j| open.binary_search(&j).is_ok())
+    });
     if choice.free.len() + choice.held.len() > LARGEST {
         return follow(point, active, &directions, (&[], &[]), tolerances);
     }
@@ -218,12 +220,6 @@ fn is_alike(point: &Point<'_>, i: usize, k: usize) -> bool {
             return false;
         }
     }
-}
-
-/// The variable that a direction moves most, in units of its size.
-fn moves_most(point: &Point<'_>, direction: &[f64]) -> Option<usize> {
-    let share = |j: usize| (direction[j] / point.plain_sizes()[j]).abs();
-    (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))
 }
 
 /// The variables that take part in a direction.

@@ -131,9 +131,4 @@ impl Certificate {
     pub fn is_feasible(&self, tolerances: &Tolerances) -> bool {
         self.primal_infeasibility <= tolerances.constraint
     }
-
-    /// What is left of the first-order conditions.
-    pub(super) fn residual(&self) -> f64 {
-        self.dual_infeasibility.max(self.complementarity)
-    }
 }

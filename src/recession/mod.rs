@@ -15,5 +15,5 @@ mod ways;
 
 pub use floor::newton;
 pub use height::{Fall, last_digits, with_digits_moved};
-pub use valley::{Site, Valley};
+pub use valley::{Site, Valley, moves_most};
 pub use ways::{Ray, Terrain, is_farther, size};

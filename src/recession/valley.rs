@@ -56,11 +56,16 @@ struct Lead {
     others: Vec<(usize, f64)>,
 }
 
+/// The variable that a direction moves most, in units of its size.
+pub fn moves_most(direction: &[f64], sizes: &[f64]) -> Option<usize> {
+    let share = |j: usize| (direction[j] / sizes[j]).abs();
+    (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))
+}
+
 impl Lead {
     /// `None` where nothing moves, or the variable that moves most has a bound ahead.
     fn new(site: &Site<'_>, direction: &[f64]) -> Option<Lead> {
-        let share = |j: usize| (direction[j] / site.sizes[j]).abs();
-        let pivot = (0..direction.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+        let pivot = moves_most(direction, site.sizes)?;
         let (way, meta) = (direction[pivot], site.meta());
         let open = if way > 0.0 { meta.upper[pivot] == f64::INFINITY } else { meta.lower[pivot] == f64::NEG_INFINITY };
         if !open || way == 0.0 || !way.is_finite() {
