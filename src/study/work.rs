@@ -179,6 +179,7 @@ impl Round<'_> {
     fn attempt(&self, (number, points): &Chain) -> Result<bool, StudyError> {
         let is_done = || self.store.rows_of(*number, points).is_some();
         if is_done() {
+            self.store.clear(*number)?;
             self.seen();
             return Ok(true);
         }

@@ -16,6 +16,9 @@ pub const BEAT: Duration = Duration::from_secs(10);
 /// A claim of another machine this old is nobody's: six beats may be late, by busy disks or clocks that differ.
 const LEASE: Duration = Duration::from_secs(60);
 
+/// Room for a point's number, so that every write is as long as the one before.
+const DIGITS: usize = 20;
+
 /// A chain that this process works on.
 #[derive(Debug)]
 pub struct Claim<'a> {
@@ -66,6 +69,16 @@ impl Store {
 
     /// The claim of a worker that has ended without letting go of it; where it ended is noted.
     fn inherited(&self, chain: usize, path: &Path) -> io::Result<Option<File>> {
+        let Some((file, point)) = self.abandoned(path)? else { return Ok(None) };
+        if let Some(point) = point {
+            let mut deaths = OpenOptions::new().create(true).append(true).open(self.death_file(chain))?;
+            deaths.write_all(format!("{point}\n").as_bytes())?;
+        }
+        Ok(Some(file))
+    }
+
+    /// A claim whose worker has ended, and the point it was at.
+    fn abandoned(&self, path: &Path) -> io::Result<Option<(File, Option<usize>)>> {
         let mut file = match OpenOptions::new().read(true).write(true).open(path) {
             Ok(file) => file,
             // Let go of just now: the next round claims it.
@@ -76,17 +89,26 @@ impl Store {
         file.read_to_string(&mut text)?;
         let mut lines = text.lines();
         let is_ours = lines.next() == Some(&self.host);
-        if is_ours && file.try_lock().is_err() {
-            return Ok(None);
+        let is_left = if is_ours { file.try_lock().is_ok() } else { is_old(&file)? };
+        let point = lines.next().and_then(|point| point.trim_end().parse().ok());
+        Ok(is_left.then_some((file, point)))
+    }
+
+    /// Takes away the claim of a worker that ended between finishing its chain and letting go of it.
+    ///
+    /// # Errors
+    /// Whatever the file system says.
+    pub fn clear(&self, chain: usize) -> Result<(), StoreError> {
+        let path = self.claim_file(chain);
+        match self.abandoned(&path) {
+            Ok(Some(_)) => {
+                // Where somebody else took it away meanwhile, it is gone all the same.
+                let _ = fs::remove_file(&path);
+                Ok(())
+            }
+            Ok(None) => Ok(()),
+            Err(cause) => Err(StoreError::Unwritable { path, cause }),
         }
-        if !is_ours && !is_old(&file)? {
-            return Ok(None);
-        }
-        if let Some(point) = lines.next().and_then(|point| point.parse::<usize>().ok()) {
-            let mut deaths = OpenOptions::new().create(true).append(true).open(self.death_file(chain))?;
-            deaths.write_all(format!("{point}\n").as_bytes())?;
-        }
-        Ok(Some(file))
     }
 
     fn deaths(&self, chain: usize) -> Vec<usize> {
@@ -127,11 +149,11 @@ impl Claim<'_> {
         Ok(true)
     }
 
+    /// Over what was there, in one write: a worker that is killed leaves the one or the other, and never a claim of nobody.
     fn write(&self, point: &str) -> io::Result<()> {
         let mut file = &self.file;
-        file.set_len(0)?;
         file.rewind()?;
-        file.write_all(format!("{}\n{point}\n", self.store.host).as_bytes())
+        file.write_all(format!("{}\n{point:<DIGITS$}\n", self.store.host).as_bytes())
     }
 }
 

@@ -82,3 +82,20 @@ fn claims_of_other_machines_are_judged_by_their_age() {
     assert!(claim.begin(4).unwrap());
     assert_eq!(fs::read_to_string(folder.path().join("deaths/000002")).unwrap(), "4\n");
 }
+
+#[test]
+fn a_finished_chain_keeps_no_claim_of_a_worker_that_has_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::open(&study("a"), folder.path(), false).unwrap();
+    let claim = store.claim(5).unwrap().unwrap();
+    store.finish(5, rows(8)).unwrap();
+    store.clear(5).unwrap();
+    // Its worker lives.
+    assert_eq!(store.claims(), 1);
+    let (path, text) = (claim.path.clone(), fs::read(&claim.path).unwrap());
+    drop(claim);
+    fs::write(&path, text).unwrap();
+    store.clear(5).unwrap();
+    assert_eq!(store.claims(), 0);
+    store.clear(5).unwrap();
+}
