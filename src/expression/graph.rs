@@ -185,8 +185,17 @@ impl Graph {
 
     /// The value of a node for these inputs and data.
     pub fn evaluate(&self, root: NodeId, inputs: &[f64], data: &[f64]) -> f64 {
-        let mut values: Vec<f64> = Vec::with_capacity(root as usize + 1);
-        for node in &self.nodes[..=root as usize] {
+        self.values_up_to(root as usize + 1, inputs, data)[root as usize]
+    }
+
+    /// The values of all nodes, in their order.
+    pub fn values(&self, inputs: &[f64], data: &[f64]) -> Vec<f64> {
+        self.values_up_to(self.nodes.len(), inputs, data)
+    }
+
+    fn values_up_to(&self, count: usize, inputs: &[f64], data: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::with_capacity(count);
+        for node in &self.nodes[..count] {
             values.push(match *node {
                 Node::Constant(value) => value,
                 Node::Input(slot) => inputs.get(slot as usize).copied().unwrap_or(f64::NAN),
@@ -195,7 +204,7 @@ impl Graph {
                 Node::Binary(op, left, right) => op.evaluate(values[left as usize], values[right as usize]),
             });
         }
-        values[root as usize]
+        values
     }
 
     fn intern(&mut self, key: Key, node: Node) -> NodeId {

@@ -59,16 +59,15 @@ impl CrossSection {
     /// ```
     pub fn new(name: &str, form: &'static Form, given: &[f64], outline: &[Ring]) -> Option<CrossSection> {
         let kind = sections::kind(form.kind).filter(|_| given.len() == form.dimensions.len())?;
-        let others = kind.properties().iter().filter(|name| !form.dimensions.contains(name) && sections::offers(form, name));
-        let value = |name: &&'static str| {
-            let value = sections::evaluate(kind, form, given, outline, name).filter(|value| value.is_finite());
-            (*name, value)
-        };
+        let known = sections::values(kind, form, given, outline);
+        let value = |name: &'static str| known.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+        let offered = |name: &&'static str| !form.dimensions.contains(name) && sections::offers(form, name);
+        let others = kind.properties().iter().copied().filter(offered);
         Some(CrossSection {
             name: name.to_owned(),
             kind: kind.name(),
             dimensions: form.dimensions.iter().copied().zip(given.iter().copied()).collect(),
-            properties: others.map(value).collect(),
+            properties: others.map(|name| (name, value(name).filter(|value| value.is_finite()))).collect(),
             defect: kind.defect(form, given, outline),
             outline: outline.to_vec(),
             form,

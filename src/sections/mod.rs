@@ -19,6 +19,7 @@ mod outline;
 mod pieces;
 mod polygon;
 mod polyline;
+mod properties;
 mod rectangle;
 mod rectangles;
 mod superellipse;
@@ -29,12 +30,13 @@ mod tube;
 
 use std::sync::LazyLock;
 
-use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
 pub use defaults::Defaults;
 pub use fibre::{Fibre, Points};
 pub use length::Length;
+use properties::not_positive;
+pub use properties::{evaluate, offers, values};
 
 /// What a kind's formulas start from: the given dimensions of one section as nodes, and its points where it is drawn by points.
 pub struct Given<'a> {
@@ -176,34 +178,6 @@ pub static KINDS: &[&dyn Kind] = &[
     &toy::Diamond,
 ];
 
-/// The value of a property at numeric dimensions, in the form's order; `None` for a name the kind does not offer.
-///
-/// ```
-/// use ribopt::sections::{evaluate, kind};
-/// let tube = kind("tube").unwrap();
-/// let area = evaluate(tube, &tube.forms()[0], &[0.2, 0.01], &[], "A").unwrap();
-/// assert!((area - std::f64::consts::PI * 0.01 * 0.19).abs() < 1e-17);
-/// ```
-pub fn evaluate(kind: &dyn Kind, form: &Form, given: &[f64], outline: &[Ring], name: &str) -> Option<f64> {
-    let form = kind.forms().iter().find(|known| *known == form)?;
-    if given.len() != form.dimensions.len() {
-        return None;
-    }
-    let mut graph = Graph::new();
-    let dimensions: Vec<NodeId> = given.iter().map(|value| graph.constant(*value)).collect();
-    let node = kind.property(&mut graph, &Given { form, dimensions: &dimensions, outline }, name)?;
-    graph.as_constant(node)
-}
-
-/// The first dimension, given or named by [`Kind::positive`], that is not positive and finite.
-fn not_positive(name: &str, form: &Form, given: &[f64], outline: &[Ring]) -> Option<String> {
-    let kind = kind(name)?;
-    let derived = kind.positive().iter().filter_map(|name| Some((*name, evaluate(kind, form, given, outline, name)?)));
-    let mut all = form.dimensions.iter().copied().zip(given.iter().copied()).chain(derived);
-    let (name, value) = all.find(|(_, value)| !(*value > 0.0 && value.is_finite()))?;
-    Some(format!("{name} is {}; it must be positive", plain(value)))
-}
-
 /// Every form of every kind, in the order [`form`] counts them.
 pub fn forms() -> impl Iterator<Item = (&'static dyn Kind, &'static Form)> {
     KINDS.iter().flat_map(|&kind| kind.forms().iter().map(move |form| (kind, form)))
@@ -230,29 +204,6 @@ pub fn kind(name: &str) -> Option<&'static dyn Kind> {
 /// Is this a dimension of some form of some kind?
 pub fn is_dimension(name: &str) -> bool {
     forms().any(|(_, form)| form.dimensions.contains(&name))
-}
-
-/// Does a section given in this form offer this name? A kind's other dimensions need not follow from those of the form: a polygon with
-/// `scale_x` and `scale_y` has no `scale`.
-///
-/// ```
-/// use ribopt::sections::{kind, offers};
-/// let polygon = kind("polygon").unwrap();
-/// assert!(offers(&polygon.forms()[0], "Ix") && !offers(&polygon.forms()[0], "tw"));
-/// ```
-pub fn offers(form: &Form, name: &str) -> bool {
-    if form.dimensions.contains(&name) {
-        return true;
-    }
-    let Some(kind) = kind(form.kind).filter(|kind| kind.properties().contains(&name)) else { return false };
-    // What follows from any of the forms follows from each, where a form says the whole shape.
-    if kind.has_rings() && !kind.forms().iter().any(|other| other.dimensions.contains(&name)) {
-        return true;
-    }
-    let Some(form) = kind.forms().iter().find(|known| *known == form) else { return false };
-    let mut graph = Graph::new();
-    let dimensions: Vec<NodeId> = (0..form.dimensions.len() as u32).map(|slot| graph.input(slot)).collect();
-    kind.property(&mut graph, &Given { form, dimensions: &dimensions, outline: &[] }, name).is_some()
 }
 
 /// Whether torsion and a shear force both make shear stress at a point of sections given in this form.
