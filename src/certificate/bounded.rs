@@ -34,10 +34,10 @@ struct Row {
     has_upper: bool,
 }
 
-/// The linear rows, and by variable those it is in.
+/// The linear rows, and by variable those it is in, with its coefficients.
 struct Rows {
     rows: Vec<Row>,
-    of_variable: Vec<Vec<usize>>,
+    of_variable: Vec<Vec<(usize, f64)>>,
 }
 
 impl Rows {
@@ -53,7 +53,7 @@ impl Rows {
         let rows: Vec<Row> = (0..meta.rows()).filter(|&i| meta.is_row_linear(i)).map(row).chain(level).collect();
         let mut of_variable = vec![Vec::new(); meta.variables()];
         for (k, row) in rows.iter().enumerate() {
-            row.entries.iter().for_each(|&(j, _)| of_variable[j].push(k));
+            row.entries.iter().for_each(|&(j, a)| of_variable[j].push((k, a)));
         }
         Rows { rows, of_variable }
     }
@@ -92,26 +92,47 @@ impl Ends {
         (0..self.are_closed.len()).filter(|&j| self.are_closed[j] != [true; 2]).collect()
     }
 
-    /// Closes ends until no row closes another.
+    /// Closes ends until no row closes another. A row is looked at when so many of its terms are bounded that it may close one: the work grows
+    /// with the entries alone.
     fn propagate(&mut self, rows: &Rows) {
-        let mut waiting: Vec<usize> = (0..rows.rows.len()).collect();
+        let mut giving: Vec<[usize; 2]> =
+            rows.rows.iter().map(|row| [true, false].map(|is_upper| self.giving(row, is_upper).count())).collect();
+        let may_close = |counts: &[usize; 2]| counts.iter().any(|&count| count <= 1);
+        let mut waiting: Vec<usize> = (0..rows.rows.len()).filter(|&k| may_close(&giving[k])).collect();
         while let Some(k) = waiting.pop() {
-            for j in self.close(&rows.rows[k]) {
-                waiting.extend(&rows.of_variable[j]);
+            for (j, closed) in self.close(&rows.rows[k], giving[k]) {
+                for &(other, a) in &rows.of_variable[j] {
+                    for (side, is_upper) in
+                        [true, false].into_iter().enumerate().filter(|&(_, is_upper)| end(a, !is_upper) == closed)
+                    {
+                        giving[other][side] -= 1;
+                        if giving[other][side] <= 1 {
+                            waiting.push(other);
+                        }
+                    }
+                }
             }
         }
     }
 
-    /// Closes what one row does: where a sum has an upper limit and all terms but one a least value, that one has a largest.
-    fn close(&mut self, row: &Row) -> Vec<usize> {
+    /// The terms of a sum that may go on for ever away from its limit.
+    fn giving<'a>(&'a self, row: &'a Row, is_upper: bool) -> impl Iterator<Item = &'a (usize, f64)> + 'a {
+        row.entries.iter().filter(move |&&(j, a)| !self.are_closed[j][end(a, !is_upper)])
+    }
+
+    /// Closes what one row does: where a sum has an upper limit and all terms but one a least value, that one has a largest. The variables, and
+    /// which end of each.
+    fn close(&mut self, row: &Row, giving: [usize; 2]) -> Vec<(usize, usize)> {
         let mut closed = Vec::new();
-        for (has_limit, is_upper) in [(row.has_upper, true), (row.has_lower, false)] {
-            let mut giving = row.entries.iter().filter(|&&(j, a)| !self.are_closed[j][end(a, !is_upper)]);
-            let (first, second) = (giving.next(), giving.next());
-            let bounded = |&&(j, _): &&(usize, f64)| second.is_none() && first.is_none_or(|first| first.0 == j);
-            for &(j, a) in row.entries.iter().filter(bounded).filter(|_| has_limit) {
-                if !std::mem::replace(&mut self.are_closed[j][end(a, is_upper)], true) {
-                    closed.push(j);
+        for (has_limit, is_upper, count) in [(row.has_upper, true, giving[0]), (row.has_lower, false, giving[1])] {
+            if !has_limit || count > 1 {
+                continue;
+            }
+            let only = self.giving(row, is_upper).next().map(|first| first.0);
+            for &(j, a) in row.entries.iter().filter(|&&(j, _)| only.is_none_or(|only| only == j)) {
+                let side = end(a, is_upper);
+                if !std::mem::replace(&mut self.are_closed[j][side], true) {
+                    closed.push((j, side));
                 }
             }
         }

@@ -43,6 +43,29 @@ pub fn sizes_known_at(model: &dyn Model, x: &[f64]) -> Option<Vec<f64>> {
     Some(known_sizes(&Origin::new(model), x, &jacobian))
 }
 
+/// Whether the terms of a row with one of these variables (ascending) are more than `most` times what its limit, or its terms where the model
+/// starts, amount to: what is accepted of a violation is relative to a row's terms, and may hide a contradiction where they have grown.
+pub fn have_rows_grown(model: &dyn Model, x: &[f64], variables: &[usize], most: f64) -> bool {
+    let meta = model.meta();
+    let jacobian = |x: &[f64]| {
+        let mut jacobian = vec![0.0; meta.jacobian.len()];
+        model.jacobian(x, &mut jacobian).map(|()| jacobian)
+    };
+    // Where there are no derivatives nothing speaks against it.
+    let (Ok(before), Ok(now)) = (jacobian(&meta.start), jacobian(x)) else { return true };
+    let sizes = known_sizes(&Origin::new(model), &meta.start, &before);
+    let largest = |i: usize, jacobian: &[f64], size: &dyn Fn(usize) -> f64| {
+        let term = |at: usize| (jacobian[at] * size(meta.jacobian.columns[at] as usize)).abs();
+        meta.jacobian.range(i).map(term).fold(0.0, f64::max)
+    };
+    let has_grown = |i: usize| {
+        let at_start = largest(i, &before, &|j| meta.start[j].abs().max(sizes[j]));
+        !(largest(i, &now, &|j| x[j]) <= most * at_start.max(largest_limit(meta, i)))
+    };
+    let has_one = |i: &usize| meta.jacobian.row(*i).iter().any(|j| variables.binary_search(&(*j as usize)).is_ok());
+    (0..meta.rows()).filter(has_one).any(has_grown)
+}
+
 /// The sizes of the variables with those far away held back to [`FAR`] times what is known of them.
 pub(super) fn near_sizes(point: &Point<'_>) -> Vec<f64> {
     let known = known_sizes(point.origin, point.x, &point.jacobian);

@@ -51,7 +51,7 @@ use crate::model::{Class, EvaluationError, Model};
 use crate::recession::Ray;
 pub use alternative::contradicting;
 pub use farkas::{Contradiction, contradiction};
-pub use known_sizes::{sizes_at_start, sizes_known_at};
+pub use known_sizes::{have_rows_grown, sizes_at_start, sizes_known_at};
 pub use lower_bound::lower_bound;
 pub use propagation::impossible_row;
 pub use second_order::SecondOrder;

@@ -3,7 +3,7 @@
 use super::Answer;
 use super::session::{Session, Solver};
 use super::work;
-use crate::certificate::{Certificate, sizes_at_start, sizes_known_at};
+use crate::certificate::{Certificate, have_rows_grown, sizes_at_start, sizes_known_at};
 use crate::model::{Class, Model, WithBounds};
 use crate::recession::{Fall, Ray, Terrain, is_farther, size};
 
@@ -152,7 +152,9 @@ pub(super) fn is_too_far(session: &Session<'_>, x: &[f64]) -> bool {
     let way = |j: usize| (x[j] - meta.start[j]).abs();
     let far: Vec<usize> = (0..design).filter(|&j| way(j) > TOO_FAR * sizes[j]).collect();
     let at_x = if far.is_empty() { None } else { sizes_known_at(session.task.model, x) };
-    far.into_iter().any(|j| at_x.as_ref().is_none_or(|sizes| way(j) > TOO_FAR * sizes[j]))
+    let is_far = |&j: &usize| at_x.as_ref().is_none_or(|sizes| way(j) > TOO_FAR * sizes[j]);
+    let far: Vec<usize> = far.into_iter().filter(is_far).collect();
+    !far.is_empty() && have_rows_grown(session.task.model, x, &far, TOO_FAR)
 }
 
 /// Minima inside two artificial boxes: their difference shows where the problem runs off to.
