@@ -96,9 +96,24 @@ fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Po
         if arrived(&at) {
             return Some(x);
         }
+        if needs_more(point, &at, reach + distance(point, &x)) {
+            return None;
+        }
         x = step_back(&at, &violated)?;
     }
     None
+}
+
+/// Whether no Newton step from `at` within `reach` of the variables' sizes at the point takes off a row's violation: Σ a_j·Δ_j is at most
+/// max_j |Δ_j|/d_j times Σ |a_j|·d_j.
+fn needs_more(point: &Point<'_>, at: &Point<'_>, reach: f64) -> bool {
+    let meta = point.meta();
+    let most = |i: usize| {
+        let places = meta.jacobian.range(i).map(|place| (place, meta.jacobian.columns[place] as usize));
+        places.filter(|&(_, j)| !meta.is_fixed(j)).map(|(place, j)| (at.jacobian[place] * point.sizes[j]).abs()).sum::<f64>()
+            * reach
+    };
+    (0..meta.rows()).any(|i| at.row_violation(i) > 0.0 && at.slopes[i] > 0.0 && at.row_excess(i).0 > most(i))
 }
 
 /// The worst relative violation of a row beside the variables' known sizes, where that is more than `tolerance` and cannot be

@@ -62,7 +62,8 @@ pub fn have_rows_grown(model: &dyn Model, x: &[f64], variables: &[usize], most: 
         let at_start = largest(i, &before, &|j| meta.start[j].abs().max(sizes[j]));
         !(largest(i, &now, &|j| x[j]) <= most * at_start.max(largest_limit(meta, i)))
     };
-    let has_one = |i: &usize| meta.jacobian.row(*i).iter().any(|j| variables.binary_search(&(*j as usize)).is_ok());
+    let is_one = |at: usize| variables.binary_search(&(meta.jacobian.columns[at] as usize)).is_ok();
+    let has_one = |i: &usize| meta.jacobian.range(*i).any(|at| is_one(at) && (before[at] != 0.0 || now[at] != 0.0));
     (0..meta.rows()).filter(has_one).any(has_grown)
 }
 
@@ -185,6 +186,18 @@ mod tests {
             let found = sizes(&square, &[0.0, 0.0]);
             assert!(is_about(found[0] * unit, 2.0) && is_about(found[1], 4.0), "{unit}: {found:?}");
         }
+    }
+
+    #[test]
+    fn rows_grow_beyond_their_limits_and_not_beside_them() {
+        // A displacement that is next to nothing where the model starts; its stress limit tells what it may become.
+        let strained = Sample::new(&[1e-7, 1e-7], |x| x[0]).row(-10.0, 10.0, |x| (x[0] - x[1]) * 1e4);
+        assert!(!have_rows_grown(&strained, &[2e-3, 1.9e-3], &[0], 1e4));
+        assert!(have_rows_grown(&strained, &[2e3, 2e3], &[0], 1e4));
+        // Of rows of other variables nothing is asked.
+        let other = Sample::new(&[0.0, 0.0], |x| x[0]).row(0.0, 1.0, |x| x[1]);
+        assert!(!have_rows_grown(&other, &[0.0, 1e9], &[0], 1e4));
+        assert!(have_rows_grown(&other, &[0.0, 1e9], &[1], 1e4));
     }
 
     #[test]
