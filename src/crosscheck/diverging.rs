@@ -17,6 +17,10 @@ pub(super) const TOO_FAR: f64 = 1e4;
 const AGREEMENT: f64 = 1e-6;
 /// f' < f − SHARE·|f| is lower, |x'_j − start_j| < SHARE·|x_j − start_j| nearer.
 const SHARE: f64 = 0.5;
+/// A fall of more than ROUNDINGS·max(σ, |f|) is none of rounding's.
+const ROUNDINGS: f64 = 1e3 * f64::EPSILON;
+/// Shares of the way to a lower point at which the objective is looked at.
+const SHARES: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 0.125, 0.25, 0.5, 1.0];
 /// Points within SAME·d_j of one another are one.
 const SAME: f64 = 1e-6;
 /// Places on a way are led back to the rows within this, relative to the variables there.
@@ -93,7 +97,9 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
         }
         let is_lower = own.objective < certificate.objective - level;
         let is_in_it = is_on_the_way(start, own, x, &best.solution.x) || is_beside(certificate, &best.solution.x, x);
-        if let Some(tail) = tail(answer).filter(|_| is_lower || is_in_it) {
+        if let Some(tail) =
+            tail(answer).filter(|_| is_lower || is_in_it || falls_towards(session, (certificate, &best.solution.x), x))
+        {
             return Some(tail);
         }
         let straight = || terrain.straight(x, &difference(x, start)).or_else(|| terrain.power_curve(x));
@@ -105,6 +111,20 @@ pub(super) fn overruled(session: &Session<'_>, answers: &[Answer], best: &Answer
         own.runaway.iter().any(is_far).then(straight).flatten()
     };
     with_terrain(session, |terrain| answers.iter().find_map(|answer| overrules(terrain, answer)))
+}
+
+/// Whether the objective falls from a judged point straight to another one, from the very beginning and beyond rounding: then what the point
+/// leaves of the fall is the slope that is accepted, and it is no minimum.
+fn falls_towards(session: &Session<'_>, (own, from): (&Certificate, &[f64]), to: &[f64]) -> bool {
+    let model = session.task.model;
+    let rounding = ROUNDINGS * own.sigma.max(own.objective.abs());
+    let mut last = own.objective;
+    SHARES.into_iter().all(|share| {
+        let x: Vec<f64> = from.iter().zip(to).map(|(from, to)| from + share * (to - from)).collect();
+        let is_feasible = || session.judge.primal_infeasibility(&x).is_some_and(|worst| worst <= session.tolerances.constraint);
+        let falls = |value: f64| value < std::mem::replace(&mut last, value) - rounding;
+        model.objective(&x).is_ok_and(falls) && is_feasible()
+    })
 }
 
 /// Whether a point has gone on the way on which the variables of a judged one run away: all of them as far, or one of them far from where
