@@ -102,9 +102,7 @@ impl Ends {
         while let Some(k) = waiting.pop() {
             for (j, closed) in self.close(&rows.rows[k], giving[k]) {
                 for &(other, a) in &rows.of_variable[j] {
-                    for (side, is_upper) in
-                        [true, false].into_iter().enumerate().filter(|&(_, is_upper)| end(a, !is_upper) == closed)
-                    {
+                    for (side, _) in [true, false].into_iter().enumerate().filter(|&(_, is_upper)| end(a, !is_upper) == closed) {
                         giving[other][side] -= 1;
                         if giving[other][side] <= 1 {
                             waiting.push(other);

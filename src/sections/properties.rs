@@ -1,8 +1,8 @@
 //! What a form offers, in numbers: the formulas of all its properties are built once and evaluated for many sections.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
-use super::{Form, Given, Kind, form_number, forms, kind};
+use super::{Form, Given, Kind, form_number, forms, kind, kind_of};
 use crate::expression::display::plain;
 use crate::expression::graph::{Graph, NodeId};
 use crate::geometry::polygon::Ring;
@@ -29,11 +29,12 @@ impl Properties {
         kind.property(&mut self.graph, &Given { form, dimensions: &dimensions, outline }, name)
     }
 
-    /// Those of a form without points.
+    /// Those of a form without points: made when they are first asked for.
     fn known(form: &Form) -> Option<&'static Properties> {
-        static TABLE: LazyLock<Vec<Properties>> =
-            LazyLock::new(|| forms().map(|(kind, form)| Properties::new(kind, form, &[])).collect());
-        TABLE.get(usize::from(form_number(form)?))
+        static TABLE: LazyLock<Vec<OnceLock<Properties>>> = LazyLock::new(|| forms().map(|_| OnceLock::new()).collect());
+        let number = form_number(form)?;
+        let (kind, form) = (kind_of(number), super::form(number));
+        Some(TABLE.get(usize::from(number))?.get_or_init(|| Properties::new(kind, form, &[])))
     }
 
     fn node(&self, name: &str) -> Option<NodeId> {
