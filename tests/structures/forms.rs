@@ -138,8 +138,8 @@ impl Cantilever {
                 row(format!("stress{number}"), format!("-10 <= {stiffness:?}*({stretch}) <= 10"));
             }
             for (sign, node) in [(-1.0, a), (1.0, b)] {
-                for axis in 0..2 {
-                    let share = sign * direction[axis];
+                for (axis, along) in direction.iter().enumerate() {
+                    let share = sign * along;
                     if let Some(u) = self.displacement(node, axis).filter(|_| share != 0.0) {
                         balance[u - 1].push(match has_forces {
                             true => format!("{share:?}*N[{number}]"),
