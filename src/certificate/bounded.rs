@@ -102,11 +102,11 @@ impl Ends {
         while let Some(k) = waiting.pop() {
             for (j, closed) in self.close(&rows.rows[k], giving[k]) {
                 for &(other, a) in &rows.of_variable[j] {
-                    for (side, _) in [true, false].into_iter().enumerate().filter(|&(_, is_upper)| end(a, !is_upper) == closed) {
-                        giving[other][side] -= 1;
-                        if giving[other][side] <= 1 {
-                            waiting.push(other);
-                        }
+                    // Of the counts, [towards an upper limit, towards a lower one], that which has this end.
+                    let count = &mut giving[other][usize::from(end(a, true) == closed)];
+                    *count -= 1;
+                    if *count <= 1 {
+                        waiting.push(other);
                     }
                 }
             }

@@ -60,8 +60,7 @@ pub fn have_rows_grown(model: &dyn Model, x: &[f64], variables: &[usize], most: 
     };
     let has_grown = |i: usize| {
         let at_start = largest(i, &before, &|j| meta.start[j].abs().max(sizes[j]));
-        let there = largest(i, &now, &|j| x[j]);
-        there.is_nan() || there > most * at_start.max(largest_limit(meta, i))
+        largest(i, &now, &|j| x[j]) > most * at_start.max(largest_limit(meta, i))
     };
     let is_one = |at: usize| variables.binary_search(&(meta.jacobian.columns[at] as usize)).is_ok();
     let has_one = |i: &usize| meta.jacobian.range(*i).any(|at| is_one(at) && (before[at] != 0.0 || now[at] != 0.0));
