@@ -68,7 +68,7 @@ impl<'s> Records<'s> {
     fn in_users_terms<'i>(&self, iteration: &Iteration<'i>) -> Iteration<'i> {
         let (shown, all) = (self.subject.shown(), iteration.x);
         let x = all.get(..shown.meta().variables()).unwrap_or(all);
-        let objective = match x.len() < all.len() {
+        let objective = match self.subject.has_auxiliaries() {
             true => shown.objective(x).unwrap_or(iteration.objective),
             false => iteration.objective,
         };

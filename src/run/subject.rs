@@ -163,6 +163,11 @@ impl Subject {
         self.formulation.shown.judge()
     }
 
+    /// Whether the model has variables of kinks that are restated.
+    pub fn has_auxiliaries(&self) -> bool {
+        !self.formulation.model.problem().auxiliaries.is_empty()
+    }
+
     /// A point in the user's variables with the auxiliaries that follow from it.
     pub fn completed(&self, mut x: Vec<f64>) -> Vec<f64> {
         let model = self.model();
