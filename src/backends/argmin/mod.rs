@@ -7,6 +7,7 @@ mod tests;
 use std::time::Instant;
 
 use super::{Backend, Job, Solution, Termination};
+use crate::model::views::bounded_states::BoundedStates;
 use crate::model::{Evaluator, Model};
 use crate::solvers::Conclusion;
 use crate::solvers::augmented_lagrangian::{self, AugmentedLagrangian};
@@ -54,32 +55,36 @@ impl Backend for Argmin {
             return Solution::at_start(job, Termination::Refused, message);
         }
         let began = Instant::now();
-        let evaluator = Evaluator::new(model, job.budget);
         let (algorithm, solution) = match job.algorithm {
-            AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, by_augmented_lagrangian(&evaluator, job)),
-            _ => (INTERIOR_POINT, by_interior_point(&evaluator, job)),
+            AUGMENTED_LAGRANGIAN => (AUGMENTED_LAGRANGIAN, by_augmented_lagrangian(model, job)),
+            _ => (INTERIOR_POINT, by_interior_point(model, job)),
         };
-        let (evaluations, seconds) = (evaluator.evaluations(), began.elapsed().as_secs_f64());
-        Solution { algorithm: algorithm.into(), evaluations, seconds, ..solution }
+        Solution { algorithm: algorithm.into(), seconds: began.elapsed().as_secs_f64(), ..solution }
     }
 }
 
-fn by_interior_point(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
-    match block_interior_point::decomposes(evaluator) {
+fn by_interior_point(model: &dyn Model, job: &mut Job<'_>) -> Solution {
+    let bounded = BoundedStates::of(model, job.start);
+    let evaluator = Evaluator::new(bounded.as_ref().map_or(model, |bounded| bounded), job.budget);
+    let solution = match block_interior_point::decomposes(&evaluator) {
         Some(components) => {
-            let solver = BlockInteriorPoint::new(evaluator, components.as_ref(), job.start, job.start_multipliers);
-            run(solver, evaluator, job)
+            let solver = BlockInteriorPoint::new(&evaluator, components.as_ref(), job.start, job.start_multipliers);
+            run(solver, &evaluator, job)
         }
         None => {
             let multipliers = job.start_multipliers.map(<[f64]>::to_vec);
-            run(InteriorPoint::new(evaluator, job.start.to_vec(), multipliers), evaluator, job)
+            run(InteriorPoint::new(&evaluator, job.start.to_vec(), multipliers), &evaluator, job)
         }
-    }
+    };
+    let of_rows = |y| bounded.iter().fold(y, |y, bounded| bounded.multipliers(&solution.x, y));
+    Solution { multipliers: solution.multipliers.map(of_rows), evaluations: evaluator.evaluations(), ..solution }
 }
 
-fn by_augmented_lagrangian(evaluator: &Evaluator<'_>, job: &mut Job<'_>) -> Solution {
-    match AugmentedLagrangian::new(evaluator, job.start, job.start_multipliers, job.stop_test) {
-        Ok(solver) => run(solver, evaluator, job),
+fn by_augmented_lagrangian(model: &dyn Model, job: &mut Job<'_>) -> Solution {
+    let evaluator = Evaluator::new(model, job.budget);
+    let solution = match AugmentedLagrangian::new(&evaluator, job.start, job.start_multipliers, job.stop_test) {
+        Ok(solver) => run(solver, &evaluator, job),
         Err(error) => concluded(Conclusion::of(&error), None, job),
-    }
+    };
+    Solution { evaluations: evaluator.evaluations(), ..solution }
 }

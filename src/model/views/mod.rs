@@ -7,6 +7,7 @@
 //! | [`flange_substitution`] | flange thickness in place of overall height |
 //! | [`with_bounds`] | other bounds |
 //! | [`bounds_only`] | no rows |
+//! | [`bounded_states`] | bounds of states in place of rows of one |
 //! | [`freed`] | without some limits |
 //! | [`mapped`] | variables and rows behind constant linear maps |
 //! | [`composed`] | inputs that are the rows of another model |
@@ -17,6 +18,7 @@
 //! | [`chained`] | one substitution after another |
 
 pub mod augmented;
+pub mod bounded_states;
 pub mod bounds_only;
 pub mod chained;
 pub mod composed;

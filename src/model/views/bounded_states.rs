@@ -1,0 +1,97 @@
+//! Limits on single displacements as bounds.
+//!
+//! A row that is linear in one state and holds nothing else limits that state alone: a solver that keeps bounds by themselves needs neither
+//! a slack nor an equation for it.
+
+use crate::model::{Evaluation, EvaluationError, Meta, Model};
+
+/// A model whose states have bounds in place of the rows that limit one of them each. Rows keep their numbers, those without their limits.
+pub struct BoundedStates<'a> {
+    model: &'a dyn Model,
+    meta: Meta,
+    moved: Vec<SingleState>,
+}
+
+/// c_row = slope·x_state + constant
+#[derive(Debug, Clone, Copy)]
+struct SingleState {
+    row: usize,
+    state: usize,
+    slope: f64,
+    constant: f64,
+}
+
+impl SingleState {
+    /// The bounds of the state that are the row's limits.
+    fn bounds(self, meta: &Meta) -> [f64; 2] {
+        let [a, b] = [meta.row_lower[self.row], meta.row_upper[self.row]].map(|limit| (limit - self.constant) / self.slope);
+        if self.slope > 0.0 { [a, b] } else { [b, a] }
+    }
+}
+
+impl<'a> BoundedStates<'a> {
+    /// The view of a model, whose rows are looked at at x. `None` where no row is of that kind, or where a state would be left no room
+    /// between its bounds.
+    pub fn of(model: &'a dyn Model, x: &[f64]) -> Option<Self> {
+        let mut meta = model.meta().clone();
+        let moved = rows_of_single_states(model, x);
+        for single in &moved {
+            let ([lower, upper], j) = (single.bounds(&meta), single.state);
+            (meta.lower[j], meta.upper[j]) = (meta.lower[j].max(lower), meta.upper[j].min(upper));
+        }
+        for single in &moved {
+            (meta.row_lower[single.row], meta.row_upper[single.row]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let has_room = !moved.is_empty() && moved.iter().all(|single| meta.lower[single.state] < meta.upper[single.state]);
+        has_room.then_some(BoundedStates { model, meta, moved })
+    }
+
+    /// The model's row multipliers at x from those of this view: what ∇f + Jᵀy leaves of a state's bound is its row's.
+    pub fn multipliers(&self, x: &[f64], mut y: Vec<f64>) -> Vec<f64> {
+        let meta = self.model.meta();
+        let (mut left, mut jacobian) = (vec![0.0; meta.variables()], vec![0.0; meta.jacobian.len()]);
+        if self.gradient(x, &mut left).and_then(|_| self.jacobian(x, &mut jacobian)).is_err() {
+            return y;
+        }
+        meta.jacobian.add_transposed(&jacobian, &y, &mut left);
+        for single in &self.moved {
+            let ([lower, upper], j) = (single.bounds(meta), single.state);
+            // Of several rows, the one the bound is from.
+            let is_pushed = if left[j] < 0.0 { upper == self.meta.upper[j] } else { lower == self.meta.lower[j] };
+            if is_pushed {
+                y[single.row] = -left[j] / single.slope;
+                left[j] = 0.0;
+            }
+        }
+        y
+    }
+}
+
+/// Empty where the model has no states, or no values at x.
+fn rows_of_single_states(model: &dyn Model, x: &[f64]) -> Vec<SingleState> {
+    let meta = model.meta();
+    let Some(states) = meta.states else { return Vec::new() };
+    let only = |row: usize| meta.jacobian.range(row).len() == 1 && meta.is_row_linear(row);
+    let candidates: Vec<usize> =
+        (0..states.first_row).filter(|&row| only(row) && states.has(meta.jacobian.row(row)[0] as usize)).collect();
+    let (mut rows, mut jacobian) = (vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
+    if candidates.is_empty() || model.constraints(x, &mut rows).and_then(|()| model.jacobian(x, &mut jacobian)).is_err() {
+        return Vec::new();
+    }
+    let single = |row: usize| {
+        let (at, state) = (meta.jacobian.range(row).start, meta.jacobian.row(row)[0] as usize);
+        let slope = jacobian[at];
+        SingleState { row, state, slope, constant: rows[row] - slope * x[state] }
+    };
+    candidates.into_iter().map(single).filter(|single| single.slope != 0.0).collect()
+}
+
+impl Model for BoundedStates<'_> {
+    fn meta(&self) -> &Meta {
+        &self.meta
+    }
+
+    fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+        self.model.at(x)
+    }
+}
