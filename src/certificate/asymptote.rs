@@ -88,7 +88,7 @@ pub(super) fn towards_bounds(point: &Point<'_>, active: &Active<'_>, tolerance: 
         x
     };
     let value = |share: f64| {
-        Trial::at(point, &at_share(share)).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective)
+        Trial::at(point, &at_share(share)).filter(|trial| trial.is_feasible(point, tolerance)).map(|trial| trial.objective())
     };
     let on_bounds = || {
         let x = at_share(0.0);

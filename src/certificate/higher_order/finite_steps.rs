@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::slopes::{flatness, slopes};
-use super::trial_point::Trial;
+use super::trial_point::{Trial, Values};
 use crate::certificate::Tolerances;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::{
@@ -127,7 +127,7 @@ impl<'w, 'p> Walk<'w, 'p> {
         let pushes = multipliers.bounds.iter().enumerate().filter(|(_, z)| **z != 0.0);
         let of_bounds: f64 = pushes.map(|(j, &z)| z * (point.x[j] - point.bound(j, z))).sum();
         let balanced =
-            Trial::at(point, point.x).map_or(point.objective, |trial| trial.lagrangian(point, multipliers)) + of_bounds;
+            Trial::at(point, point.x).map_or(point.objective, |trial| trial.values.lagrangian(point, multipliers)) + of_bounds;
         let worth = worst_complementarity(point, multipliers).1 * point.scale();
         let here = (point.objective.min(balanced), point.objective.max(balanced) + worth);
         Ok(Walk {
@@ -192,8 +192,7 @@ impl<'w, 'p> Walk<'w, 'p> {
                 // a longer one is the first that cannot, what lies beyond is another valley's.
                 return if step == STEPS[0] { Way::Barred } else { Way::Ends };
             }
-            let value = trial.penalised(point, self.multipliers);
-            let explained = self.explained(&x) + trial.rounding(point, self.multipliers);
+            let (value, explained) = self.height(&x, &trial.values);
             if value < self.here.0 - explained {
                 return Way::Lower(x.iter().zip(point.x).map(|(to, from)| STRETCH * (to - from)).collect());
             }
@@ -202,6 +201,12 @@ impl<'w, 'p> Walk<'w, 'p> {
             }
         }
         Way::Ends
+    }
+
+    /// The objective, with what violations gain taken off, and by how much it may differ from that at the point and yet be level.
+    fn height(&self, x: &[f64], values: &Values) -> (f64, f64) {
+        let explained = self.explained(x) + values.rounding(self.point, self.multipliers);
+        (values.penalised(self.point, self.multipliers), explained)
     }
 
     /// What the point's own slope may make of the way to x (of a convex function no fall is deeper), and rounding.
@@ -230,14 +235,20 @@ impl<'w, 'p> Walk<'w, 'p> {
     }
 
     /// Chord steps towards the active limits and down the directions that bend, inside the bounds. Where the way down leads off,
-    /// from there on towards the limits alone.
+    /// from there on towards the limits alone. `None` where the model has no values, and where the end of the way is higher than the point:
+    /// as steps shrink by half, all that follow change the objective by no more than the last one.
     fn corrected(&self, mut x: Vec<f64>, length: f64) -> Option<Vec<f64>> {
         let (point, meta) = (self.point, self.point.meta());
-        let (mut descends, mut last) = (true, f64::INFINITY);
+        let (mut descends, mut last, mut before) = (true, f64::INFINITY, f64::NAN);
         meta.clamp(&mut x);
         self.resting.iter().for_each(|&(j, bound)| x[j] = bound);
         for _ in 0..CORRECTIONS {
-            let mut right = self.residual(&x)?;
+            let (mut right, values) = self.residual(&x)?;
+            let (value, explained) = self.height(&x, &values);
+            if value - self.here.1 - explained > (value - before).abs() {
+                return None;
+            }
+            before = value;
             if !descends {
                 right[..self.free.len()].fill(0.0);
             }
@@ -264,12 +275,12 @@ impl<'w, 'p> Walk<'w, 'p> {
     }
 
     /// [−D∇L/σ over the free variables; limit − c over the held rows, each over its slope]
-    fn residual(&self, x: &[f64]) -> Option<Vec<f64>> {
+    fn residual(&self, x: &[f64]) -> Option<(Vec<f64>, Values)> {
         let (point, meta, model) = (self.point, self.point.meta(), &self.point.origin.model);
         let (mut total, mut rows, mut jacobian) =
             (vec![0.0; meta.variables()], vec![0.0; meta.rows()], vec![0.0; meta.jacobian.len()]);
         let mut at = model.at(x).ok()?;
-        at.gradient(&mut total).ok()?;
+        let objective = at.gradient(&mut total).ok()?;
         at.constraints(&mut rows).ok()?;
         at.jacobian(&mut jacobian).ok()?;
         meta.jacobian.add_transposed(&jacobian, &self.multipliers.rows, &mut total);
@@ -280,6 +291,7 @@ impl<'w, 'p> Walk<'w, 'p> {
             (to - rows[i]) / self.kkt.slope(k)
         };
         let lacks = self.held.iter().enumerate().map(lack);
-        Some(slopes.chain(lacks).collect())
+        let right = slopes.chain(lacks).collect();
+        Some((right, Values { objective, rows }))
     }
 }

@@ -7,11 +7,16 @@ use crate::certificate::point::Point;
 use crate::certificate::scales::{self, RowTerms};
 use crate::model::Model;
 
-/// Objective and rows at another point.
+/// Objective and rows.
+pub(super) struct Values {
+    pub(super) objective: f64,
+    pub(super) rows: Vec<f64>,
+}
+
+/// Another point.
 pub(in crate::certificate) struct Trial<'x> {
     x: &'x [f64],
-    pub(in crate::certificate) objective: f64,
-    rows: Vec<f64>,
+    pub(super) values: Values,
     /// The rows' terms here, or, where they have no derivatives here, at the judged point.
     terms: RowTerms,
 }
@@ -28,7 +33,11 @@ impl<'x> Trial<'x> {
             Ok(()) => scales::row_terms(meta, x, &jacobian),
             Err(_) => point.terms.clone(),
         };
-        Some(Trial { x, objective, rows, terms })
+        Some(Trial { x, values: Values { objective, rows }, terms })
+    }
+
+    pub(in crate::certificate) fn objective(&self) -> f64 {
+        self.values.objective
     }
 
     /// Whether it meets bounds and rows as well as the judged point must.
@@ -39,28 +48,30 @@ impl<'x> Trial<'x> {
             tolerance * limit.abs().max(self.terms.moving[i]) + rounding + CORRECTED * point.slopes[i]
         };
         let meets = |i: usize| {
-            let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.rows[i]);
+            let (lower, upper, value) = (meta.row_lower[i], meta.row_upper[i], self.values.rows[i]);
             (lower.is_infinite() || value >= lower - scale(i, lower)) && (upper.is_infinite() || value <= upper + scale(i, upper))
         };
         let inside = |j: usize| {
             let slack = tolerance * point.sizes[j];
             self.x[j] >= meta.lower[j] - slack && self.x[j] <= meta.upper[j] + slack
         };
-        (0..self.x.len()).all(inside) && (0..self.rows.len()).all(meets)
+        (0..self.x.len()).all(inside) && (0..self.values.rows.len()).all(meets)
     }
+}
 
+impl Values {
     /// f + yᵀ(c − limit) with the judged point's multipliers.
-    pub(in crate::certificate) fn lagrangian(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+    pub(super) fn lagrangian(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
         self.terms(point, multipliers).map(|(y, distance)| y * distance).sum::<f64>() + self.objective
     }
 
     /// f + Σ|y_i|·violation_i: what violations within the tolerance gain is taken off again.
-    pub(in crate::certificate) fn penalised(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+    pub(super) fn penalised(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
         self.terms(point, multipliers).map(|(y, distance)| (y * distance).max(0.0)).sum::<f64>() + self.objective
     }
 
     /// What rounding may make of either.
-    pub(in crate::certificate) fn rounding(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
+    pub(super) fn rounding(&self, point: &Point<'_>, multipliers: &Multipliers) -> f64 {
         let size = |i: usize, y: f64| y.abs() * (self.rows[i].abs() + point.row_limit(i, y).abs());
         let rows: f64 = multipliers.rows.iter().enumerate().filter(|(_, y)| **y != 0.0).map(|(i, &y)| size(i, y)).sum();
         ROUNDINGS * (self.objective.abs() + rows)
