@@ -225,10 +225,12 @@ impl<'a> Certifier<'a> {
         }
         let hessian = self.hessian(point, multipliers)?;
         let point = &*point;
-        let Curvature { escape, singular, dependent, undecided, flat } = match self.class.is_global() && point.is_late() {
-            // First order proves; nothing is said of other minimisers.
+        let is_global = self.class.is_global();
+        let is_regular = !is_global && second_order::has_minimum_beside(point, &active);
+        let Curvature { escape, singular, dependent, undecided, flat } = match is_regular || (is_global && point.is_late()) {
+            // Of a global class first order proves; nothing is said of other minimisers.
             true => Curvature::default(),
-            false => second_order::examine(point, &active, &hessian, self.class.is_global()),
+            false => second_order::examine(point, &active, &hessian, is_global),
         };
         let has_idle_rows = !idle_rows::of(point, (active.rows, active.bounds)).is_empty();
         let dependent = dependent || has_idle_rows;
@@ -240,8 +242,8 @@ impl<'a> Certifier<'a> {
         let has_negative_curvature = escape.as_ref().is_some_and(is_proof);
         let undecided = if escape.is_some() && !has_negative_curvature { Some(0) } else { undecided };
         // Convex problems have no inflections, and need no second order: the first proves.
-        let (undecided, descent) = match escape.is_some() || self.class.is_global() {
-            true => (undecided.filter(|_| !self.class.is_global()), None),
+        let (undecided, descent) = match escape.is_some() || is_regular || is_global {
+            true => (undecided.filter(|_| !is_global), None),
             false => {
                 let found = higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent));
                 (undecided, found.unwrap_or_default())

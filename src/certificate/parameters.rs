@@ -116,6 +116,11 @@ parameters! {
         LOW: f64 = 1e-3;
         /// … so many of them.
         LOW_FACES: usize = 12;
+        /// A simplified Newton step ≤ CONTRACTION·(the one before it): h ≤ 2·CONTRACTION, far below Kantorovich's ½, as one direction's
+        /// h may hide behind a longer step in another.
+        CONTRACTION: f64 = 1e-2;
+        /// Newton's step moves no variable by more than REACH of its size.
+        REACH: f64 = 0.1;
         /// Steps of inverse iteration towards the lowest curvature.
         POWER_STEPS: usize = 60;
         /// For flat directions: the shift that keeps the matrix regular …

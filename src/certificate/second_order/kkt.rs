@@ -227,6 +227,20 @@ impl<'a> Kkt<'a> {
         self.slopes[k]
     }
 
+    /// The product of [S Aᵀ; A 0] with a vector.
+    pub(super) fn product(&self, v: &[f64]) -> Vec<f64> {
+        let (p, mut product) = (self.free.len(), vec![0.0; v.len()]);
+        let mut add = |a: usize, b: usize, value: f64| {
+            product[a] += value * v[b];
+            if a != b {
+                product[b] += value * v[a];
+            }
+        };
+        self.hessian.iter().for_each(|&(row, column, value)| add(row as usize, column as usize, value));
+        self.rows.iter().for_each(|&(row, column, value)| add(p + row as usize, column as usize, value));
+        product
+    }
+
     /// Solves with the factors found last: over the free variables, in their scales, then the rows.
     pub(in crate::certificate) fn solve(&self, right: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         self.matrix.solve(right)
@@ -244,7 +258,7 @@ impl<'a> Kkt<'a> {
     }
 
     /// vᵀSv
-    fn bend(&self, v: &[f64]) -> f64 {
+    pub(super) fn bend(&self, v: &[f64]) -> f64 {
         let term = |&(row, column, value): &(u32, u32, f64)| {
             let product = value * v[row as usize] * v[column as usize];
             if row == column { product } else { 2.0 * product }
@@ -289,6 +303,6 @@ fn beyond(basis: &[Vec<f64>], v: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.
-fn scattered(k: usize) -> f64 {
+pub(super) fn scattered(k: usize) -> f64 {
     0.5 + SplitMix::share(k as u64)
 }

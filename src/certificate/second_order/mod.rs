@@ -10,6 +10,7 @@ mod by_component;
 mod cone;
 mod kkt;
 mod null_space;
+mod regular;
 mod small_kkt;
 mod system;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod weak_limits;
 mod whole;
 
 pub(super) use kkt::Kkt;
+pub(super) use regular::has_minimum_beside;
 pub(super) use system::{Active, Choice, Hessian};
 pub(super) use whole::Curvature;
 

@@ -95,3 +95,61 @@ impl Model for BoundedStates<'_> {
         self.model.at(x)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::closures::{Closures, Function};
+    use crate::model::states::States;
+
+    /// Minimises x where x + u = 1 states u.
+    struct Lifted {
+        model: Closures,
+        meta: Meta,
+    }
+
+    impl Lifted {
+        /// With rows lower ≤ 1 − 2u ≤ upper.
+        fn limited(limits: &[[f64; 2]]) -> Lifted {
+            let model =
+                Closures::new(&["x", "u"], &[1.0, 0.0], &[-9.0; 2], &[9.0; 2]).minimise(Function::affine(0.0, &[(0, 1.0)]));
+            let add = |model: Closures, [lower, upper]: &[f64; 2]| {
+                model.row("limit", *lower, *upper, Function::affine(1.0, &[(1, -2.0)]))
+            };
+            let model = limits.iter().fold(model, add).row("state", 1.0, 1.0, Function::affine(0.0, &[(0, 1.0), (1, 1.0)]));
+            let states = States { first_variable: 1, first_row: limits.len(), block: 1, blocks: 1, are_bounded: true };
+            Lifted { meta: Meta { states: Some(states), ..model.meta().clone() }, model }
+        }
+    }
+
+    impl Model for Lifted {
+        fn meta(&self) -> &Meta {
+            &self.meta
+        }
+
+        fn at<'m>(&'m self, x: &[f64]) -> Result<Box<dyn Evaluation + 'm>, EvaluationError> {
+            self.model.at(x)
+        }
+    }
+
+    #[test]
+    fn limits_of_one_state_are_its_bounds_and_their_multipliers_are_found_again() {
+        let model = Lifted::limited(&[[-5.0, 9.0], [-3.0, 2.0]]);
+        let view = BoundedStates::of(&model, &[1.0, 0.0]).unwrap();
+        assert_eq!((view.meta().lower[1], view.meta().upper[1]), (-0.5, 2.0));
+        assert_eq!((view.meta().row_lower[1], view.meta().row_upper[0]), (f64::NEG_INFINITY, f64::INFINITY));
+        assert_eq!(view.meta().row_upper[2], 1.0, "the state's own equation stays");
+        // x falls until u = 2, where the second row is at its lower limit: ∇f + Jᵀy = 0 there.
+        assert_eq!(view.multipliers(&[-1.0, 2.0], vec![0.0, 0.0, -1.0]), [0.0, -0.5, -1.0]);
+        // Within the bounds nothing pushes.
+        assert_eq!(view.multipliers(&[0.0, 1.0], vec![0.0; 3]), [0.0; 3]);
+    }
+
+    #[test]
+    fn nothing_is_changed_where_a_state_has_no_room_or_no_row() {
+        assert!(BoundedStates::of(&Lifted::limited(&[[-3.0, 2.0], [2.0, 9.0]]), &[1.0, 0.0]).is_none(), "u ≤ −½ ≤ u");
+        assert!(BoundedStates::of(&Lifted::limited(&[]), &[1.0, 0.0]).is_none());
+        let design_alone = Lifted::limited(&[[-3.0, 2.0]]).model;
+        assert!(BoundedStates::of(&design_alone, &[1.0, 0.0]).is_none());
+    }
+}
