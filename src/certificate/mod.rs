@@ -35,13 +35,13 @@ mod second_order;
 mod tests;
 mod types;
 
-use crate::certificate::parameters::sizes::PROPORTION;
 use elsewhere::Elsewhere;
 use feasibility::worst_violation;
 use first_order::is_stationary;
 use std::time::Instant;
 
 use multipliers::Multipliers;
+use parameters::sizes::PROPORTION;
 use point::{Origin, Point};
 use residuals::{beyond_rounding, lost_in_rounding, objective_lost, slope_far_out};
 use runaway::Runaway;
@@ -227,11 +227,8 @@ impl<'a> Certifier<'a> {
         let point = &*point;
         let is_global = self.class.is_global();
         let is_regular = !is_global && second_order::has_minimum_beside(point, &active);
-        let Curvature { escape, singular, dependent, undecided, flat } = match is_regular || (is_global && point.is_late()) {
-            // Of a global class first order proves; nothing is said of other minimisers.
-            true => Curvature::default(),
-            false => second_order::examine(point, &active, &hessian, is_global),
-        };
+        let Curvature { escape, singular, dependent, undecided, flat } =
+            if is_regular { Curvature::default() } else { self.curvature(point, &active, &hessian) };
         let has_idle_rows = !idle_rows::of(point, (active.rows, active.bounds)).is_empty();
         let dependent = dependent || has_idle_rows;
         // Other multipliers may bend the Lagrangian up along a direction where these bend it down: then only a lower point proves.
@@ -242,13 +239,9 @@ impl<'a> Certifier<'a> {
         let has_negative_curvature = escape.as_ref().is_some_and(is_proof);
         let undecided = if escape.is_some() && !has_negative_curvature { Some(0) } else { undecided };
         // Convex problems have no inflections, and need no second order: the first proves.
-        let (undecided, descent) = match escape.is_some() || is_regular || is_global {
-            true => (undecided.filter(|_| !is_global), None),
-            false => {
-                let found = higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent));
-                (undecided, found.unwrap_or_default())
-            }
-        };
+        let undecided = undecided.filter(|_| !is_global);
+        let further = || higher_order::find(point, &active, &hessian, &self.tolerances, (&flat, dependent)).unwrap_or_default();
+        let descent = if escape.is_some() || is_regular || is_global { None } else { further() };
         let descends_at_higher_order = descent.is_some();
         let runaway = match has_negative_curvature || descends_at_higher_order {
             true => Runaway::default(),
@@ -270,6 +263,14 @@ impl<'a> Certifier<'a> {
         certificate.undecided = undecided.filter(|_| !descends_at_higher_order);
         (certificate.minimiser_may_not_be_unique, certificate.multipliers_not_unique) = (singular, dependent);
         Ok(())
+    }
+
+    /// What second derivatives say; after the deadline nothing of a global class, of which first order proves.
+    fn curvature(&self, point: &Point<'_>, active: &Active<'_>, hessian: &Hessian) -> Curvature {
+        match self.class.is_global() {
+            true if point.is_late() => Curvature::default(),
+            is_global => second_order::examine(point, active, hessian, is_global),
+        }
     }
 
     /// The scaled Hessian of the Lagrangian, in sizes that curvature and the slope about the point have a say in.

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
+use super::spans::{beyond, is_new};
 use super::system::{Hessian, places, weight};
-use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, INDEPENDENT, POWER_STEPS};
+use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, POWER_STEPS};
 use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
@@ -278,28 +279,6 @@ impl<'a> Kkt<'a> {
 fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
     point.in_time()?;
     matrix.factor(entries)
-}
-
-/// Whether two vectors span one line.
-fn is_parallel(a: &[f64], b: &[f64]) -> bool {
-    dot(a, b).powi(2) > 0.999 * dot(a, a) * dot(b, b)
-}
-
-fn is_new(found: &[Vec<f64>], v: &[f64]) -> bool {
-    found.iter().all(|known| !is_parallel(known, v))
-}
-
-/// What of v is beyond the span of an orthonormal basis, of length one; `None` where that is hardly anything.
-fn beyond(basis: &[Vec<f64>], v: &[f64]) -> Option<Vec<f64>> {
-    let mut rest = v.to_vec();
-    // Twice is enough (Giraud, Langou, Rozložník and van den Eshof 2005).
-    for known in basis.iter().chain(basis) {
-        let share = dot(known, &rest);
-        rest.iter_mut().zip(known).for_each(|(rest, known)| *rest -= share * known);
-    }
-    let length = dot(&rest, &rest).sqrt();
-    rest.iter_mut().for_each(|rest| *rest /= length);
-    (length > INDEPENDENT * dot(v, v).sqrt()).then_some(rest)
 }
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.

@@ -12,6 +12,7 @@ mod kkt;
 mod null_space;
 mod regular;
 mod small_kkt;
+mod spans;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -16,7 +16,7 @@ use super::kkt::{Kkt, scattered};
 use super::system::{Active, Hessian};
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::NOISE;
-use crate::certificate::parameters::second_order::{CONTRACTION, REACH, ROUNDING};
+use crate::certificate::parameters::second_order::{CONTRACTION, REACH, ROUNDING, WEAK};
 use crate::certificate::point::Point;
 use crate::model::{EvaluationError, Model};
 
@@ -133,17 +133,13 @@ impl<'a> System<'a> {
         step[..self.free.len()].iter().all(|step| step.abs() <= REACH)
     }
 
-    /// By how much the multiplier of the k-th held row changes.
-    fn change(&self, step: &[f64], k: usize) -> f64 {
-        step[self.free.len() + k] * self.point.scale() / self.point.slopes[self.rows[k]]
-    }
-
     /// At the end of a step.
     fn values_beyond(&self, step: &[f64]) -> Result<Values, EvaluationError> {
         let (point, meta) = (self.point, self.point.meta());
         let (mut x, mut y) = (point.x.to_vec(), self.multipliers.rows.clone());
         self.free.iter().zip(step).for_each(|(&j, step)| x[j] += step * point.sizes[j]);
-        self.rows.iter().enumerate().for_each(|(k, &i)| y[i] += self.change(step, k));
+        let changes = self.rows.iter().zip(&step[self.free.len()..]);
+        changes.for_each(|(&i, change)| y[i] += change * point.scale() / point.slopes[i]);
         let (mut gradient, mut jacobian) = (vec![0.0; meta.variables()], vec![0.0; meta.jacobian.len()]);
         let mut rows = vec![0.0; meta.rows()];
         let mut at = point.origin.model.at(&x)?;
@@ -157,13 +153,15 @@ impl<'a> System<'a> {
     /// Whether, within two steps, the held limits keep pushing and the others are met.
     fn keeps_limits(&self, step: &[f64], here: &Values, there: &Values) -> bool {
         let (point, meta) = (self.point, self.point.meta());
+        // A weakly active limit's multiplier is 0, but for what the problem's own digits make of it.
         let push = |k: usize| {
-            let (i, y) = (self.rows[k], self.multipliers.rows[self.rows[k]]);
-            meta.row_lower[i] == meta.row_upper[i] || y.abs() > 2.0 * self.change(step, k).abs()
+            let i = self.rows[k];
+            let multiplier = self.multipliers.rows[i].abs() * point.slopes[i] / point.scale();
+            meta.row_lower[i] == meta.row_upper[i] || multiplier > WEAK + 2.0 * step[self.free.len() + k].abs()
         };
         let bound_pushes = |&j: &usize| {
             let change = (there.slopes[j] - here.slopes[j]).abs();
-            here.slopes[j] * self.multipliers.bounds[j] < 0.0 && here.slopes[j].abs() > 2.0 * change
+            here.slopes[j] * self.multipliers.bounds[j] < 0.0 && here.slopes[j].abs() > WEAK + 2.0 * change
         };
         let is_apart = |(&j, step): (&usize, &f64)| {
             let distance = (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]);
