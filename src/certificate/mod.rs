@@ -226,7 +226,7 @@ impl<'a> Certifier<'a> {
         let hessian = self.hessian(point, multipliers)?;
         let point = &*point;
         let is_global = self.class.is_global();
-        let is_regular = !is_global && second_order::has_minimum_beside(point, &active);
+        let is_regular = !is_global && second_order::has_minimum_beside(point, multipliers);
         let Curvature { escape, singular, dependent, undecided, flat } =
             if is_regular { Curvature::default() } else { self.curvature(point, &active, &hessian) };
         let has_idle_rows = !idle_rows::of(point, (active.rows, active.bounds)).is_empty();

@@ -13,7 +13,7 @@
 
 use super::by_component;
 use super::kkt::{Kkt, scattered};
-use super::system::{Active, Hessian};
+use super::system::Hessian;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::NOISE;
 use crate::certificate::parameters::second_order::{CONTRACTION, REACH, ROUNDING, WEAK};
@@ -21,9 +21,9 @@ use crate::certificate::point::Point;
 use crate::model::{EvaluationError, Model};
 
 /// Whether one is proved. No means nothing; of a model of many components each is better looked at by itself.
-pub(in crate::certificate) fn has_minimum_beside(point: &Point<'_>, active: &Active<'_>) -> bool {
+pub(in crate::certificate) fn has_minimum_beside(point: &Point<'_>, multipliers: &Multipliers) -> bool {
     by_component::apart(point.meta()).is_none()
-        && System::of(point, active).is_some_and(|system| system.is_regular() == Some(true))
+        && System::of(point, multipliers).is_some_and(|system| system.is_regular() == Some(true))
 }
 
 /// The limits held, and F there.
@@ -48,8 +48,8 @@ struct Values {
 impl<'a> System<'a> {
     /// Limits are held whose multiplier outweighs their distance, both relative: the active ones, by strict complementarity. `None` where
     /// limits cannot but depend on one another.
-    fn of(point: &'a Point<'a>, active: &Active<'_>) -> Option<Self> {
-        let (y, z) = (&active.multipliers.rows, &active.multipliers.bounds);
+    fn of(point: &'a Point<'a>, found: &Multipliers) -> Option<Self> {
+        let (y, z) = (&found.rows, &found.bounds);
         let multipliers = Multipliers { rows: vec![0.0; y.len()], bounds: vec![0.0; z.len()] };
         let mut system =
             System { point, free: Vec::new(), bounded: Vec::new(), rows: Vec::new(), limits: Vec::new(), multipliers };
@@ -183,7 +183,6 @@ impl<'a> System<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::Side;
     use crate::certificate::point::Origin;
     use crate::model::sample::{Sample, Value};
 
@@ -193,18 +192,10 @@ mod tests {
         let mut point = Point::new(&origin, x).unwrap();
         point.add_curvature().unwrap();
         let meta = model.meta();
-        let rests = |value: f64, lower: f64, upper: f64| match (value == lower, value == upper) {
-            (true, true) => Side::Equal,
-            (true, _) => Side::Lower,
-            (_, true) => Side::Upper,
-            _ => Side::None,
-        };
-        let rows: Vec<Side> = (0..y.len()).map(|i| rests(point.rows[i], meta.row_lower[i], meta.row_upper[i])).collect();
-        let bounds: Vec<Side> = (0..x.len()).map(|j| rests(x[j], meta.lower[j], meta.upper[j])).collect();
+        let rests = |j: usize| x[j] == meta.lower[j] || x[j] == meta.upper[j];
         let left = point.row_gradient(y);
-        let z = (0..x.len()).map(|j| if bounds[j] == Side::None { 0.0 } else { -left[j] }).collect();
-        let multipliers = Multipliers { rows: y.to_vec(), bounds: z };
-        has_minimum_beside(&point, &Active { rows: &rows, bounds: &bounds, multipliers: &multipliers, nearly_weak: 0.0 })
+        let z = (0..x.len()).map(|j| if rests(j) { -left[j] } else { 0.0 }).collect();
+        has_minimum_beside(&point, &Multipliers { rows: y.to_vec(), bounds: z })
     }
 
     const INF: f64 = f64::INFINITY;

@@ -30,8 +30,8 @@ impl SingleState {
 }
 
 impl<'a> BoundedStates<'a> {
-    /// The view of a model, whose rows are looked at at x. `None` where no row is of that kind, or where a state would be left no room
-    /// between its bounds.
+    /// The view of a model that is solved from x. `None` where no row is of that kind, and where x does not meet the limits: what keeps bounds
+    /// would begin elsewhere, at states that no design has (the ten-bar truss, far too slender at its start, came to another minimum so).
     pub fn of(model: &'a dyn Model, x: &[f64]) -> Option<Self> {
         let mut meta = model.meta().clone();
         let moved = rows_of_single_states(model, x);
@@ -42,8 +42,9 @@ impl<'a> BoundedStates<'a> {
         for single in &moved {
             (meta.row_lower[single.row], meta.row_upper[single.row]) = (f64::NEG_INFINITY, f64::INFINITY);
         }
-        let has_room = !moved.is_empty() && moved.iter().all(|single| meta.lower[single.state] < meta.upper[single.state]);
-        has_room.then_some(BoundedStates { model, meta, moved })
+        let is_inside =
+            |single: &SingleState| meta.lower[single.state] < x[single.state] && x[single.state] < meta.upper[single.state];
+        (!moved.is_empty() && moved.iter().all(is_inside)).then_some(BoundedStates { model, meta, moved })
     }
 
     /// The model's row multipliers at x from those of this view: what ∇f + Jᵀy leaves of a state's bound is its row's.
@@ -146,8 +147,9 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_changed_where_a_state_has_no_room_or_no_row() {
+    fn nothing_is_changed_where_the_start_is_beyond_a_limit_or_no_row_is_of_a_state() {
         assert!(BoundedStates::of(&Lifted::limited(&[[-3.0, 2.0], [2.0, 9.0]]), &[1.0, 0.0]).is_none(), "u ≤ −½ ≤ u");
+        assert!(BoundedStates::of(&Lifted::limited(&[[-3.0, 2.0]]), &[-2.0, 3.0]).is_none(), "u = 3 > 2");
         assert!(BoundedStates::of(&Lifted::limited(&[]), &[1.0, 0.0]).is_none());
         let design_alone = Lifted::limited(&[[-3.0, 2.0]]).model;
         assert!(BoundedStates::of(&design_alone, &[1.0, 0.0]).is_none());
