@@ -167,11 +167,9 @@ impl<'a> System<'a> {
             let distance = (point.x[j] - meta.lower[j]).min(meta.upper[j] - point.x[j]);
             distance > 2.0 * (step * point.sizes[j]).abs()
         };
-        let mut is_held = vec![false; meta.rows()];
-        self.rows.iter().for_each(|&i| is_held[i] = true);
         let is_met = |i: usize| {
             let distance = (here.rows[i] - meta.row_lower[i]).min(meta.row_upper[i] - here.rows[i]);
-            is_held[i] || distance > 2.0 * (there.rows[i] - here.rows[i]).abs()
+            self.rows.binary_search(&i).is_ok() || distance > 2.0 * (there.rows[i] - here.rows[i]).abs()
         };
         (0..self.rows.len()).all(push)
             && self.bounded.iter().all(bound_pushes)

@@ -33,8 +33,12 @@ impl<'a> BoundedStates<'a> {
     /// The view of a model that is solved from x. `None` where no row is of that kind, and where x does not meet the limits: what keeps bounds
     /// would begin elsewhere, at states that no design has (the ten-bar truss, far too slender at its start, came to another minimum so).
     pub fn of(model: &'a dyn Model, x: &[f64]) -> Option<Self> {
-        let mut meta = model.meta().clone();
         let moved = rows_of_single_states(model, x);
+        // Most models have none, and patterns are large.
+        if moved.is_empty() {
+            return None;
+        }
+        let mut meta = model.meta().clone();
         for single in &moved {
             let ([lower, upper], j) = (single.bounds(&meta), single.state);
             (meta.lower[j], meta.upper[j]) = (meta.lower[j].max(lower), meta.upper[j].min(upper));
@@ -44,7 +48,7 @@ impl<'a> BoundedStates<'a> {
         }
         let is_inside =
             |single: &SingleState| meta.lower[single.state] < x[single.state] && x[single.state] < meta.upper[single.state];
-        (!moved.is_empty() && moved.iter().all(is_inside)).then_some(BoundedStates { model, meta, moved })
+        moved.iter().all(is_inside).then_some(BoundedStates { model, meta, moved })
     }
 
     /// The model's row multipliers at x from those of this view: what ∇f + Jᵀy leaves of a state's bound is its row's.
