@@ -6,6 +6,7 @@
 
 use super::parameters::bounded::LEAST;
 use super::point::Point;
+use crate::linear_algebra::Effort;
 use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::DEPENDENT;
@@ -166,7 +167,7 @@ fn are_determined(point: &Point<'_>, rows: &Rows, open: &[usize]) -> Result<bool
     let share = |(&(_, j), value): (&(u32, u32), &f64)| value / length[j as usize].sqrt();
     let ones = std::iter::repeat_n(1.0, count as usize).chain(std::iter::repeat_n(DEPENDENT, open.len()));
     point.in_time()?;
-    let inertia = matrix.factor(ones.chain(positions.iter().zip(&values).map(share)))?;
+    let inertia = matrix.inertia(ones.chain(positions.iter().zip(&values).map(share)), Effort::Any)?;
     Ok(inertia.negative == open.len())
 }
 

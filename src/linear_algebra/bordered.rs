@@ -6,6 +6,7 @@ mod blocks;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::bunch_kaufman::{self, Pivot};
+use super::certainty::is_certain;
 use super::{Inertia, Partition, Pattern};
 use blocks::{Block, couplings, largest, product};
 
@@ -144,6 +145,16 @@ impl Bordered {
         }
         self.schur = Cholesky::new(negative);
         (self.schur.is_some() && inertia.zero == 0).then_some(inertia)
+    }
+
+    /// Whether rounding has no part in the inertia for the values factorised last.
+    pub fn is_certain(&self, values: &[f64]) -> bool {
+        let mut sizes = vec![0.0; self.pattern.rows()];
+        for ((i, j), value) in self.pattern.iter().zip(values) {
+            sizes[i] = value.abs().max(sizes[i]);
+            sizes[j] = value.abs().max(sizes[j]);
+        }
+        is_certain(&sizes, |right| Some(self.residual(values, right, &self.solved(right)?)))
     }
 
     /// The solution for the values factorised last, refined; `None` where it cannot be had to some digits.

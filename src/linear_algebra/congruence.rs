@@ -59,21 +59,34 @@ impl CongruentSolver {
 
     /// The same with no more effort than this.
     pub fn factor_by(&mut self, values: &[f64], effort: Effort) -> Result<Inertia, FactorizationError> {
+        self.factor_with(values, |solver, values| solver.factor_by(values, effort))
+    }
+
+    /// The same where the inertia proves something: [`SymmetricSolver::certain_inertia`].
+    pub fn certain_inertia(&mut self, values: &[f64], effort: Effort) -> Result<Inertia, FactorizationError> {
+        self.factor_with(values, |solver, values| solver.certain_inertia(values, effort))
+    }
+
+    fn factor_with(
+        &mut self,
+        values: &[f64],
+        factor: impl Fn(&mut SymmetricSolver, &[f64]) -> Result<Inertia, FactorizationError>,
+    ) -> Result<Inertia, FactorizationError> {
         if let Basis::Unknown(_) = &self.basis
             && pairs::is_telling(&self.offsets, &self.columns, values)
         {
             self.choose(values)?;
         }
         match &mut self.basis {
-            Basis::Unknown(solver) | Basis::Plain(solver) => return solver.factor_by(values, effort),
+            Basis::Unknown(solver) | Basis::Plain(solver) => return factor(solver, values),
             Basis::Changed { transformed, solver } => {
                 if let Some(values) = transformed.values(values) {
-                    return solver.factor_by(values, effort);
+                    return factor(solver, values);
                 }
             }
         }
         let mut plain = self.solver(&self.offsets, &self.columns)?;
-        let inertia = plain.factor_by(values, effort);
+        let inertia = factor(&mut plain, values);
         self.basis = Basis::Plain(plain);
         inertia
     }

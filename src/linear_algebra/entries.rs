@@ -4,7 +4,7 @@ use super::blocks::BlockSolver;
 use super::bordered::Bordered;
 use super::bunch_kaufman::{self, Pivot};
 use super::congruence::CongruentSolver;
-use super::{FactorizationError, Inertia, Pattern, SymmetricSolver};
+use super::{Effort, FactorizationError, Inertia, Pattern, SymmetricSolver};
 
 /// A lower triangle whose positions are fixed and whose values change.
 pub struct Symmetric {
@@ -26,6 +26,13 @@ enum Solver {
     Bordered(Box<Bordered>),
     Sparse(SymmetricSolver),
     Congruent(CongruentSolver),
+}
+
+/// What factors are for.
+#[derive(Clone, Copy, PartialEq)]
+enum Use {
+    Solve,
+    Inertia(Effort),
 }
 
 impl Symmetric {
@@ -84,31 +91,52 @@ impl Symmetric {
     }
 
     /// Factorises with these values, one per position given.
-    pub fn factor(&mut self, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
+    pub fn factor(&mut self, entries: impl Iterator<Item = f64>) -> Result<(), FactorizationError> {
+        self.sum(entries);
+        self.factors(Use::Solve).map(|_| ())
+    }
+
+    /// The same, and the inertia where rounding has no part in it.
+    ///
+    /// # Errors
+    /// [`FactorizationError::Uncertain`] where it may have changed it, with no more than this effort; there are no factors, or a value is no
+    /// number.
+    pub fn inertia(&mut self, entries: impl Iterator<Item = f64>, effort: Effort) -> Result<Inertia, FactorizationError> {
+        self.sum(entries);
+        self.factors(Use::Inertia(effort))
+    }
+
+    fn sum(&mut self, entries: impl Iterator<Item = f64>) {
         self.values.fill(0.0);
         for (&place, entry) in self.places.iter().zip(entries) {
             self.values[place] += entry;
         }
-        match &mut self.solver {
-            Solver::Dense { factors, pivots } => {
+    }
+
+    fn factors(&mut self, use_of: Use) -> Result<Inertia, FactorizationError> {
+        match (&mut self.solver, use_of) {
+            (Solver::Dense { factors, pivots }, _) => {
                 if !self.values.iter().all(|value| value.is_finite()) {
                     return Err(FactorizationError::Library("a value is no number".into()));
                 }
                 factors.clone_from(&self.values);
                 Ok(bunch_kaufman::factor(factors, pivots))
             }
-            Solver::Blocks(solver) => solver.factor(&self.values),
-            Solver::Bordered(solver) => match solver.factor(&self.values) {
-                Some(inertia) => Ok(inertia),
-                None => {
-                    let mut other = SymmetricSolver::new(&solver.pattern().offsets, &solver.pattern().columns)?;
-                    let inertia = other.factor(&self.values);
-                    self.solver = Solver::Sparse(other);
-                    inertia
+            (Solver::Blocks(solver), _) => solver.factor(&self.values),
+            (Solver::Bordered(solver), _) => {
+                let found = solver.factor(&self.values);
+                match found.filter(|_| use_of == Use::Solve || solver.is_certain(&self.values)) {
+                    Some(inertia) => Ok(inertia),
+                    None => {
+                        self.solver = sparse(solver.pattern())?;
+                        self.factors(use_of)
+                    }
                 }
-            },
-            Solver::Sparse(solver) => solver.factor(&self.values),
-            Solver::Congruent(solver) => solver.factor(&self.values),
+            }
+            (Solver::Sparse(solver), Use::Solve) => solver.factor(&self.values),
+            (Solver::Sparse(solver), Use::Inertia(effort)) => solver.certain_inertia(&self.values, effort),
+            (Solver::Congruent(solver), Use::Solve) => solver.factor(&self.values),
+            (Solver::Congruent(solver), Use::Inertia(effort)) => solver.certain_inertia(&self.values, effort),
         }
     }
 

@@ -7,6 +7,7 @@
 pub mod blocks;
 pub mod bordered;
 pub mod bunch_kaufman;
+mod certainty;
 pub mod cholesky;
 pub mod congruence;
 pub mod copositive;

@@ -31,6 +31,9 @@ pub enum FactorizationError {
     /// The library refused, most often because a value was no number.
     #[error("the factorisation failed: {0}")]
     Library(String),
+    /// The factors do not tell the signs of all eigenvalues.
+    #[error("eigenvalues are as small as what rounding has made of them")]
+    Uncertain,
     /// The time for it was over before it began.
     #[error("the time limit is reached")]
     Late,

@@ -1,25 +1,31 @@
 //! The sparse factorisation of larger symmetric matrices (multifrontal Bunch–Kaufman).
 
 use feral::numeric::solver::FactorStatus;
-use feral::symbolic::OrderingMethod;
-use feral::{CscMatrix, FeralError, RefineOptions, Solver};
+use feral::symbolic::{OrderingMethod, SupernodeParams};
+use feral::{CscMatrix, FeralError, NumericParams, RefineOptions, Solver};
 
 use super::ordering::fill_reducing;
 use super::{FactorizationError, Inertia};
 
-/// Up to this order the library's own choice of an order is cheap and good.
-const LARGEST_AUTOMATIC: usize = 10_000;
+/// The least pivot, as a share of its column, where L must not grow: by no more than its inverse (Duff & Reid, ACM Trans. Math. Softw. 9,
+/// 1983). The library's own choice is 1e-8, which is faster.
+const FIRM: f64 = 0.1;
 
 /// A factorisation analysed at the first call.
 #[derive(Default)]
 pub(super) struct SparseSolver {
     solver: Option<Box<Solver>>,
+    /// Whether pivots are sought that are not small beside their columns.
+    is_firm: bool,
 }
 
 impl SparseSolver {
     /// Factorises; analyses the pattern before that the first time. Every matrix must have the same pattern.
     pub fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        let solver = self.solver.get_or_insert_with(|| Box::new(prepared(matrix)));
+        if self.solver.is_none() {
+            eprintln!("F new feral");
+        }
+        let solver = self.solver.get_or_insert_with(|| Box::new(prepared(matrix, self.is_firm)));
         match solver.factor(matrix, None) {
             FactorStatus::Success | FactorStatus::WrongInertia { .. } => {
                 solver.inertia().map(Inertia::of).ok_or(FactorizationError::Singular)
@@ -27,6 +33,12 @@ impl SparseSolver {
             FactorStatus::Singular => Err(FactorizationError::Singular),
             FactorStatus::FatalError(error) => Err(failed(error)),
         }
+    }
+
+    /// Seeks larger pivots from now on. `false`: it did already.
+    pub fn make_firm(&mut self) -> bool {
+        self.solver = None;
+        !std::mem::replace(&mut self.is_firm, true)
     }
 
     /// Solves, with refinement.
@@ -49,11 +61,13 @@ impl SparseSolver {
     }
 }
 
-fn prepared(matrix: &CscMatrix) -> Solver {
-    if matrix.n <= LARGEST_AUTOMATIC {
-        return Solver::new();
+fn prepared(matrix: &CscMatrix, is_firm: bool) -> Solver {
+    let mut pivots = NumericParams::default();
+    if is_firm {
+        pivots.bk.pivot_threshold = FIRM;
     }
-    Solver::new().with_ordering(fill_reducing(matrix).map_or(OrderingMethod::Amd, OrderingMethod::External))
+    let solver = Solver::with_params(pivots, SupernodeParams::default());
+    solver.with_ordering(fill_reducing(matrix).map_or(OrderingMethod::Amd, OrderingMethod::External))
 }
 
 fn failed(error: FeralError) -> FactorizationError {

@@ -21,7 +21,8 @@ const FLOORS: &[&[&str]] = &[
     &["ribs"],
     &["sections"],
     &["geometry", "splines", "expression"],
-    &["linear_algebra", "math", "files", "units"],
+    &["linear_algebra"],
+    &["math", "files", "units"],
 ];
 
 /// Arrows between rooms of one floor that the sketch allows.

@@ -11,8 +11,8 @@ use super::system::{Active, Choice, Hessian, weight};
 use crate::certificate::Side;
 use crate::certificate::parameters::second_order::DELTA;
 use crate::certificate::point::Point;
-use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
+use crate::linear_algebra::{Effort, FactorizationError};
 
 /// How the matrix is stored and factorised: [`Symmetric::curved`] or [`Symmetric::one_of_many`].
 pub(super) type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, FactorizationError>;
@@ -92,7 +92,7 @@ impl<'a> Cone<'a> {
         let (p, m, k) = (self.loose.len(), self.strict, self.weak);
         let diagonal = std::iter::repeat_n(shift, p).chain(std::iter::repeat_n(-DELTA, m)).chain(std::iter::repeat_n(weak, k));
         let entries = diagonal.chain(self.hessian.iter().chain(&self.strict_rows).map(|entry| entry.2));
-        let inertia = self.matrix.factor(entries.chain(self.weak_rows.iter().map(|entry| share * entry.2)))?;
+        let inertia = self.matrix.inertia(entries.chain(self.weak_rows.iter().map(|entry| share * entry.2)), Effort::Any)?;
         Ok(inertia.positive == p && inertia.negative == m + k)
     }
 

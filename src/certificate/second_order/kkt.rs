@@ -1,20 +1,14 @@
 //! The scaled KKT matrix over free variables and active rows, and what its inertia says.
 
-use nalgebra::{DMatrix, SymmetricEigen};
-use rayon::prelude::*;
+mod flat;
 
-use super::spans::{beyond, is_new};
 use super::system::{Hessian, places, weight};
-use crate::certificate::parameters::second_order::{FLAT_SHIFT, FLAT_STEPS, POWER_STEPS};
+use crate::certificate::parameters::second_order::POWER_STEPS;
 use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::{DEPENDENT, DUAL};
-use crate::linear_algebra::{FactorizationError, Inertia};
-use crate::math::dot;
+use crate::linear_algebra::{Effort, FactorizationError, Inertia};
 use crate::math::split_mix::SplitMix;
-
-/// Rounds of the decomposition of a small matrix, which needs two or three for each of its rows.
-const ROUNDS: usize = 1000;
 
 /// [S + shift, Aᵀ; A, −δI]
 pub(in crate::certificate) struct Kkt<'a> {
@@ -81,12 +75,15 @@ impl<'a> Kkt<'a> {
     }
 
     /// Factorises with S shifted by `shift` times its rows' magnitudes; true where S then has negative curvature on the null space of A.
-    pub(in crate::certificate) fn has_negative_curvature(&mut self, shift: f64) -> Result<bool, FactorizationError> {
+    pub(in crate::certificate) fn has_negative_curvature(
+        &mut self,
+        shift: f64,
+        effort: Effort,
+    ) -> Result<bool, FactorizationError> {
         let size = &self.size;
         let diagonal = size.iter().map(|&size| shift * weight(size)).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        let inertia = factor(self.point, &mut self.matrix, entries)?;
-        Ok(inertia.negative > self.held)
+        Ok(inertia(self.point, &mut self.matrix, entries, effort)?.negative > self.held)
     }
 
     /// Whether the rows of A are linearly dependent: [I Aᵀ; A εI] gains a positive eigenvalue for every singular value below √ε.
@@ -99,15 +96,18 @@ impl<'a> Kkt<'a> {
         }
         let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(DEPENDENT, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
-        let inertia = factor(self.point, &mut self.matrix, entries)?;
-        Ok(inertia.negative < self.held)
+        match inertia(self.point, &mut self.matrix, entries, Effort::Any) {
+            // As near to dependent as rounding can tell.
+            Err(FactorizationError::Uncertain) => Ok(true),
+            inertia => Ok(inertia?.negative < self.held),
+        }
     }
 
     /// The direction of lowest curvature on the null space of A, relative to S's magnitudes, by inverse iteration; in the user's
     /// variables, its largest relative entry 1. `None` where its curvature, computed anew, is not below −shift.
     pub(in crate::certificate) fn lowest_direction(&mut self, shift: f64) -> Result<Option<Vec<f64>>, FactorizationError> {
         let mut raised = 4.0 * shift;
-        while raised < 1e12 && self.has_negative_curvature(raised)? {
+        while raised < 1e12 && self.has_negative_curvature(raised, Effort::Any)? {
             raised *= 4.0;
         }
         let mut v: Vec<f64> = (0..self.free.len()).map(scattered).collect();
@@ -126,101 +126,18 @@ impl<'a> Kkt<'a> {
         Ok((self.rayleigh(&v) < -0.5 * shift).then(|| self.in_user_variables(&v)))
     }
 
-    /// Whether a direction on the null space of A bends by less than `flat`, in units of σ.
-    pub(in crate::certificate) fn is_flat(&mut self, flat: f64) -> Result<bool, FactorizationError> {
-        Ok(self.factor_shifted(-flat)?.negative > self.held)
-    }
-
-    /// Directions on the null space of A along which S bends by less than `flat`, in units of σ: inverse iteration from `most`
-    /// different places, and what these are mixed of. In the user's variables, the largest relative entry of each 1.
-    pub(in crate::certificate) fn flat_directions(
-        &mut self,
-        most: usize,
-        flat: f64,
-    ) -> Result<Vec<Vec<f64>>, FactorizationError> {
-        self.factor_shifted(FLAT_SHIFT)?;
-        let p = self.free.len();
-        // Quadrants first, then single variables.
-        let quadrants = (most / 3).min(1 << p.min(16).saturating_sub(1)).max(1);
-        let singles = p.min(most.saturating_sub(quadrants));
-        let flattest = |k: usize| {
-            self.point.in_time()?;
-            let sign = |at: usize| if (k * (at + 1) / 2 + (k >> (at % 4))).is_multiple_of(2) || k == 0 { 1.0 } else { -1.0 };
-            let start = |at: usize| match k.checked_sub(quadrants) {
-                None => sign(at) * scattered(at),
-                Some(single) if at == single * p / singles => 1.0,
-                Some(_) => 0.0,
-            };
-            let mut v: Vec<f64> = (0..p).map(start).collect();
-            let mut size = 0.0;
-            for step in 1..=FLAT_STEPS {
-                v.extend(std::iter::repeat_n(0.0, self.held));
-                // Only the last decides how well the rows are met.
-                v = if step < FLAT_STEPS { self.matrix.solve_once(&v)? } else { self.matrix.solve(&v)? };
-                v.truncate(p);
-                size = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-                v.iter_mut().for_each(|v| *v /= size);
-            }
-            let is_flat = size > 0.0 && size.is_finite() && self.bend(&v).abs() <= flat * dot(&v, &v);
-            Ok(is_flat.then_some(v))
-        };
-        let all: Result<Vec<Option<Vec<f64>>>, FactorizationError> =
-            (0..quadrants + singles).into_par_iter().map(flattest).collect();
-        let (mut found, mut basis) = (Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new());
-        for v in all?.into_iter().flatten() {
-            basis.extend(beyond(&basis, &v));
-            if is_new(&found, &v) {
-                found.push(v);
-            }
-        }
-        for v in self.apart(&basis) {
-            if self.bend(&v).abs() <= FLAT_SHIFT * dot(&v, &v) && is_new(&found, &v) {
-                found.push(v);
-            }
-        }
-        Ok(found.iter().map(|v| self.in_user_variables(v)).collect())
-    }
-
-    /// The directions within the span of an orthonormal basis along which S bends each by itself (Rayleigh and Ritz): inverse iteration mixes
-    /// those whose curvature is within its shift, and a direction that a fourth power falls along is hidden by one that bends a little.
-    fn apart(&self, basis: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        if basis.len() < 2 {
-            return Vec::new();
-        }
-        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
-        let alone: Vec<f64> = basis.iter().map(|v| self.bend(v)).collect();
-        let both = |i: usize, j: usize| 0.5 * (self.bend(&sum(&basis[i], &basis[j])) - alone[i] - alone[j]);
-        let small = DMatrix::from_fn(basis.len(), basis.len(), |i, j| if i == j { alone[i] } else { both(i, j) });
-        let mixed = |share: &[f64]| {
-            let part = |at: usize| basis.iter().zip(share).map(|(v, share)| share * v[at]).sum();
-            let mut v: Vec<f64> = (0..self.free.len()).map(part).collect();
-            let largest = v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-            v.iter_mut().for_each(|v| *v /= largest);
-            v
-        };
-        let eigen =
-            small.iter().all(|entry| entry.is_finite()).then(|| SymmetricEigen::try_new(small, f64::EPSILON, ROUNDS)).flatten();
-        eigen.map_or_else(Vec::new, |eigen| eigen.eigenvectors.column_iter().map(|share| mixed(share.as_slice())).collect())
-    }
-
-    fn factor_shifted(&mut self, shift: f64) -> Result<Inertia, FactorizationError> {
-        let diagonal = std::iter::repeat_n(shift, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
-        let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        factor(self.point, &mut self.matrix, entries)
-    }
-
     /// Factorises [S + |S| + I, Aᵀ; A, −δI]: steps with it go downhill and back to the rows, and never far.
     pub(in crate::certificate) fn factor_proximal(&mut self) -> Result<(), FactorizationError> {
         let diagonal = self.size.iter().map(|size| size + 1.0).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|e| e.2)).chain(self.rows.iter().map(|e| e.2));
-        factor(self.point, &mut self.matrix, entries).map(|_| ())
+        factor(self.point, &mut self.matrix, entries)
     }
 
     /// Factorises [I Aᵀ; A −δI]: steps with it are the shortest back to the rows.
     pub(in crate::certificate) fn factor_projection(&mut self) -> Result<(), FactorizationError> {
         let diagonal = std::iter::repeat_n(1.0, self.free.len()).chain(std::iter::repeat_n(-DUAL, self.held));
         let entries = diagonal.chain(self.hessian.iter().map(|_| 0.0)).chain(self.rows.iter().map(|e| e.2));
-        factor(self.point, &mut self.matrix, entries).map(|_| ())
+        factor(self.point, &mut self.matrix, entries)
     }
 
     /// What row k of A was divided by.
@@ -276,9 +193,19 @@ impl<'a> Kkt<'a> {
     }
 }
 
-fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item = f64>) -> Result<Inertia, FactorizationError> {
+fn factor(point: &Point<'_>, matrix: &mut Symmetric, entries: impl Iterator<Item = f64>) -> Result<(), FactorizationError> {
     point.in_time()?;
     matrix.factor(entries)
+}
+
+fn inertia(
+    point: &Point<'_>,
+    matrix: &mut Symmetric,
+    entries: impl Iterator<Item = f64>,
+    effort: Effort,
+) -> Result<Inertia, FactorizationError> {
+    point.in_time()?;
+    matrix.inertia(entries, effort)
 }
 
 /// A fixed number in [0.5, 1.5) with no pattern to it, so that no eigenvector is missed by symmetry.

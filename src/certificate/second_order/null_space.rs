@@ -8,10 +8,10 @@
 use super::system::{Hessian, places, weight};
 use crate::certificate::parameters::second_order::{FEWEST, WIDEST};
 use crate::certificate::point::Point;
-use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::null_space::Basis;
 use crate::linear_algebra::saddle_point::DUAL;
+use crate::linear_algebra::{Effort, FactorizationError};
 
 /// Whether S shifted by `shift` times its magnitudes is certainly positive on the null space of the active rows. `None` where this test
 /// does not pay, or cannot tell.
@@ -42,7 +42,7 @@ pub(super) fn is_positive(
             entries.push((at, at, -DUAL));
         }
         let positions: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.0, entry.1)).collect();
-        let inertia = Symmetric::curved(order, &positions)?.factor(entries.iter().map(|entry| entry.2))?;
+        let inertia = Symmetric::curved(order, &positions)?.inertia(entries.iter().map(|entry| entry.2), Effort::Any)?;
         Ok(inertia.negative == wide.len())
     })
 }

@@ -18,6 +18,7 @@ use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::higher_order::NOISE;
 use crate::certificate::parameters::second_order::{CONTRACTION, REACH, ROUNDING, WEAK};
 use crate::certificate::point::Point;
+use crate::linear_algebra::Effort;
 use crate::model::{EvaluationError, Model};
 
 /// Whether one is proved. No means nothing; of a model of many components each is better looked at by itself.
@@ -113,7 +114,8 @@ impl<'a> System<'a> {
     fn bent_up(&self) -> Option<Kkt<'_>> {
         let hessian = Hessian::of(self.point, &self.multipliers).ok()?;
         let mut kkt = Kkt::new(self.point, &hessian, &self.free, &self.rows).ok()?;
-        (!kkt.has_negative_curvature(-ROUNDING).ok()?).then_some(kkt)
+        // Where quick factors cannot tell, F' is next to singular.
+        (!kkt.has_negative_curvature(-ROUNDING, Effort::Quick).ok()?).then_some(kkt)
     }
 
     /// F: over the free variables, then the held rows over their slopes.

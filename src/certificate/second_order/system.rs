@@ -78,6 +78,11 @@ impl Choice {
         })
     }
 
+    /// The same with weakly active limits as equalities: the null space of all active limits.
+    pub(super) fn on_null_space(&self) -> Choice {
+        Choice { free: self.free.clone(), held: self.held.clone(), ..Choice::default() }
+    }
+
     fn clear(&mut self) {
         let bounds = [&mut self.free, &mut self.weak_bounds, &mut self.nearly_weak_bounds];
         let rows = [&mut self.held, &mut self.weak_rows, &mut self.nearly_weak_rows];

@@ -8,7 +8,7 @@ use crate::certificate::Side;
 use crate::certificate::multipliers::Multipliers;
 use crate::certificate::parameters::second_order::ROUNDING;
 use crate::certificate::point::{Origin, Point};
-use crate::linear_algebra::Partition;
+use crate::linear_algebra::{Effort, Partition};
 use crate::math::split_mix::SplitMix;
 use crate::model::{EvaluationError, Meta, Model, Pattern};
 
@@ -105,7 +105,7 @@ fn verdicts(model: &Blocks) -> [bool; 3] {
     let Choice { free, held, .. } = Choice::all(&point, &active);
     assert_eq!((free.len(), held.len()), (2 * BLOCKS, BLOCKS));
     let on_basis = null_space::is_positive(&point, &hessian, (&free, &held), ROUNDING).expect("it pays").unwrap();
-    let whole = Kkt::new(&point, &hessian, &free, &held).unwrap().has_negative_curvature(ROUNDING).unwrap();
+    let whole = Kkt::new(&point, &hessian, &free, &held).unwrap().has_negative_curvature(ROUNDING, Effort::Any).unwrap();
     let partition = Partition::of_patterns(&model.meta.jacobian, &model.meta.hessian).unwrap();
     let apart = by_component::judge(&point, &active, &hessian, &partition, None).unwrap();
     [!on_basis, whole, apart.escape.is_some()]

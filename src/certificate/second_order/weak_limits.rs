@@ -43,7 +43,7 @@ pub(super) fn judge(
             proved => return Ok(proved),
         }
     }
-    if choice.weak() == 0 { Ok(OnCone::PROVED) } else { examine(point, active, hessian, choice, build) }
+    examine(point, active, hessian, choice, build)
 }
 
 /// Whether the objective falls below the point's within a very small step along a direction of these variables.
@@ -53,7 +53,8 @@ fn is_near(point: &Point<'_>, hessian: &Hessian, loose: &[usize], direction: &[f
     2.0 * slope <= -NEAREST * hessian.bend_of(point, loose, direction) * square
 }
 
-fn examine(
+/// The same of the weakly active limits alone.
+pub(super) fn examine(
     point: &Point<'_>,
     active: &Active<'_>,
     hessian: &Hessian,
@@ -68,7 +69,7 @@ fn examine(
     if cone.is_positive_without_weak_limits(ROUNDING)? {
         return Ok(OnCone::Holds { is_strict: false, flat: Vec::new() });
     }
-    if k > MOST || k * cone.order() > WORK || !cone.is_positive_on_subspace(ROUNDING)? {
+    if k == 0 || k > MOST || k * cone.order() > WORK || !cone.is_positive_on_subspace(ROUNDING)? {
         return Ok(OnCone::Undecided(k));
     }
     let reduced = cone.reduced()?;

@@ -7,7 +7,8 @@ use super::system::{Active, Choice, Hessian};
 use super::weak_limits::{self, OnCone};
 use crate::certificate::parameters::second_order::ROUNDING;
 use crate::certificate::point::Point;
-use crate::linear_algebra::FactorizationError;
+use crate::linear_algebra::entries::Symmetric;
+use crate::linear_algebra::{Effort, FactorizationError};
 
 /// What the second derivatives say.
 #[derive(Default)]
@@ -27,6 +28,12 @@ pub(in crate::certificate) struct Curvature {
 impl Curvature {
     pub(super) fn leave_undecided(&mut self, limits: usize) {
         self.undecided = Some(self.undecided.unwrap_or(0) + limits);
+    }
+
+    fn of(on_cone: OnCone) -> Self {
+        let mut curvature = Curvature::default();
+        curvature.add(on_cone);
+        curvature
     }
 
     pub(super) fn add(&mut self, on_cone: OnCone) {
@@ -56,26 +63,30 @@ pub(super) fn judge(
     let (free, held) = (&choice.free, &choice.held);
     // The rows alone make a far sparser matrix.
     let dependent = Kkt::without_hessian(point, free, held)?.dependent_rows()?;
+    let has_no_cone = cone.is_none() || (choice.weak() == 0 && choice.relaxed().is_none());
     // Positive beyond rounding is not negative beyond rounding.
-    let is_positive = matches!(null_space::is_positive(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
-    let mut curvature = if is_positive { Curvature::default() } else { on_null_space(point, hessian, free, held)? };
-    curvature.dependent = dependent;
-    if let Some(build) = cone.filter(|_| curvature.escape.is_none() && curvature.undecided.is_none()) {
-        curvature.add(weak_limits::judge(point, active, hessian, choice, build)?);
+    let is_positive = || matches!(null_space::is_positive(point, hessian, (free, held), -ROUNDING), Some(Ok(true)));
+    if has_no_cone && is_positive() {
+        return Ok(Curvature { dependent, ..Curvature::default() });
     }
+    // What holds on the cone holds on its largest subspace.
+    let on_cone = match cone {
+        Some(build) => weak_limits::judge(point, active, hessian, choice, build)?,
+        None => weak_limits::examine(point, active, hessian, &choice.on_null_space(), Symmetric::curved)?,
+    };
+    let mut curvature = match on_cone {
+        OnCone::Undecided(limits) => bent_down(point, hessian, choice, limits)?,
+        decided => Curvature::of(decided),
+    };
+    curvature.dependent = dependent;
     Ok(curvature)
 }
 
-/// How S bends on the null space of the rows.
-fn on_null_space(point: &Point<'_>, hessian: &Hessian, free: &[usize], held: &[usize]) -> Result<Curvature, FactorizationError> {
-    let mut kkt = Kkt::new(point, hessian, free, held)?;
-    let singular = kkt.has_negative_curvature(-ROUNDING)?;
-    let mut curvature = Curvature { singular, ..Curvature::default() };
-    if singular && kkt.has_negative_curvature(ROUNDING)? {
-        curvature.escape = kkt.lowest_direction(ROUNDING)?;
-        if curvature.escape.is_none() {
-            curvature.leave_undecided(0);
-        }
-    }
-    Ok(curvature)
+/// A direction of negative curvature on the null space of all active limits; where there is none so many weakly active ones are left
+/// undecided.
+fn bent_down(point: &Point<'_>, hessian: &Hessian, choice: &Choice, limits: usize) -> Result<Curvature, FactorizationError> {
+    let mut kkt = Kkt::new(point, hessian, &choice.free, &choice.held)?;
+    let escape = if kkt.has_negative_curvature(ROUNDING, Effort::Any)? { kkt.lowest_direction(ROUNDING)? } else { None };
+    let undecided = if escape.is_none() { Some(limits) } else { None };
+    Ok(Curvature { escape, undecided, singular: true, ..Curvature::default() })
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::linear_algebra::{FactorizationError, Pattern, SymmetricSolver};
+use crate::linear_algebra::{Effort, FactorizationError, Pattern, SymmetricSolver};
 
 /// A sparse symmetric matrix: the values along its lower triangle by rows.
 #[derive(Debug, Clone)]
@@ -51,7 +51,7 @@ impl Matrix {
     /// A value is no number, or a pivot is zero.
     pub fn negative_eigenvalues(&self) -> Result<usize, FactorizationError> {
         let mut solver = SymmetricSolver::new(&self.pattern.offsets, &self.pattern.columns)?;
-        Ok(solver.factor(&self.scaled(&self.scales()))?.negative)
+        Ok(solver.certain_inertia(&self.scaled(&self.scales()), Effort::Any)?.negative)
     }
 
     /// Self + share·other, of one pattern.

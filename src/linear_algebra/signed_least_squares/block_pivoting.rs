@@ -126,7 +126,7 @@ impl<'a> Augmented<'a> {
         let entry = |k: usize, value: f64| if basic[k] { value } else { 0.0 };
         let couplings = columns.iter().enumerate().flat_map(|(k, c)| c.entries.iter().map(move |&(_, value)| entry(k, value)));
         let entries = std::iter::repeat_n(1.0, self.g.len()).chain(columns.iter().enumerate().map(diagonal)).chain(couplings);
-        self.matrix.factor(entries).map(|_| ())
+        self.matrix.factor(entries)
     }
 }
 

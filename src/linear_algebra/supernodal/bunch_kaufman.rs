@@ -20,8 +20,8 @@ use super::{FactorizationError, Inertia, count, failed, parameters, pattern};
 const SWEEPS: usize = 5;
 
 /// A pivot d below an entry a of the scaled matrix, |a| ≤ 1, leaves rounding of ε·a²/d ≤ ε·|a/d| in what is eliminated next: no more than
-/// 1e−7 of the matrix, which refinement takes away.
-const LARGEST: f64 = 1e-7 / f64::EPSILON;
+/// 1e−4 of the matrix, which refinement takes away.
+const LARGEST: f64 = 1e-4 / f64::EPSILON;
 
 /// Analysis, factors and room to work in.
 pub struct BunchKaufmanSolver {
