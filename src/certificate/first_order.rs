@@ -71,7 +71,7 @@ fn refined(
     feasibility: &Feasibility,
     tolerances: &Tolerances,
 ) -> Option<(Multipliers, Certificate)> {
-    let residual = |certificate: &Certificate| certificate.dual_infeasibility.max(certificate.complementarity);
+    let residual = |certificate: &Certificate| certificate.dual_infeasibility + certificate.complementarity;
     if residual(&offer.1) > REFINABLE {
         return None;
     }

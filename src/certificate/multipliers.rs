@@ -58,8 +58,8 @@ pub(super) fn from_witness(point: &Point<'_>, witness: &[f64], taken: Taken) -> 
     Some(Multipliers { rows, bounds })
 }
 
-/// The same multipliers, moved as little as makes the Lagrangian stationary to the last digits, no sign changed: one least-squares
-/// step over those that are not zero. `None` where that is no gain.
+/// The same multipliers, moved as little as makes the Lagrangian stationary to the last digits, no sign changed: least squares
+/// over those that are not zero. `None` where there is no solution.
 pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Multipliers> {
     let mut system = System::default();
     let mut centre = Vec::new();
@@ -76,16 +76,12 @@ pub(super) fn refined(point: &Point<'_>, multipliers: &Multipliers) -> Option<Mu
         centre.push(z * point.sizes[j] / scale);
     }
     let gradient: Vec<f64> = point.gradient.iter().zip(&point.sizes).map(|(g, d)| g * d / scale).collect();
-    let found = signed_least_squares::nearest(&gradient, &system.columns(), &centre).ok()?;
     // What is none may come out of either sign: rounding of the largest.
-    let rounding = ROUNDINGS * found.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let found = signed_least_squares::nearest(&gradient, &system.columns(), &centre, ROUNDINGS).ok()?;
     let mut rows = vec![0.0; multipliers.rows.len()];
     for (candidate, value) in system.candidates.iter().zip(found) {
-        match candidate.owner {
-            _ if candidate.sign * value < -rounding => return None,
-            _ if candidate.sign * value < 0.0 => {}
-            Owner::Row(i) => rows[i] = value * scale / point.slopes[i],
-            Owner::Bound(_) => {}
+        if let Owner::Row(i) = candidate.owner {
+            rows[i] = value * scale / point.slopes[i];
         }
     }
     let bounds = bound_multipliers(point, &point.row_gradient(&rows));

@@ -22,9 +22,6 @@ pub(super) struct SparseSolver {
 impl SparseSolver {
     /// Factorises; analyses the pattern before that the first time. Every matrix must have the same pattern.
     pub fn factor(&mut self, matrix: &CscMatrix) -> Result<Inertia, FactorizationError> {
-        if self.solver.is_none() {
-            eprintln!("F new feral");
-        }
         let solver = self.solver.get_or_insert_with(|| Box::new(prepared(matrix, self.is_firm)));
         match solver.factor(matrix, None) {
             FactorStatus::Success | FactorStatus::WrongInertia { .. } => {

@@ -100,7 +100,11 @@ impl Piece {
         let has_negative_curvature = singular && matrices.has_negative_curvature(ROUNDING);
         let on_cone = match cone {
             Some(build) if !has_negative_curvature && !self.is_positive_without_weak_limits(point, hessian) => {
-                weak_limits::judge(point, active, hessian, &self.choice, build)?
+                match weak_limits::judge(point, active, hessian, &self.choice, build)? {
+                    // The null space of all active limits: the dense test is the more exact one.
+                    OnCone::Undecided(0) => OnCone::PROVED,
+                    judged => judged,
+                }
             }
             _ => OnCone::PROVED,
         };

@@ -75,18 +75,25 @@ pub(super) fn judge(
         None => weak_limits::examine(point, active, hessian, &choice.on_null_space(), Symmetric::curved)?,
     };
     let mut curvature = match on_cone {
-        OnCone::Undecided(limits) => bent_down(point, hessian, choice, limits)?,
+        OnCone::Undecided(limits) => on_null_space(point, hessian, choice, limits)?,
         decided => Curvature::of(decided),
     };
     curvature.dependent = dependent;
     Ok(curvature)
 }
 
-/// A direction of negative curvature on the null space of all active limits; where there is none so many weakly active ones are left
-/// undecided.
-fn bent_down(point: &Point<'_>, hessian: &Hessian, choice: &Choice, limits: usize) -> Result<Curvature, FactorizationError> {
+/// How S bends on the null space of all active limits, where the cone's matrix, less exact beside limits that nearly depend on one another,
+/// cannot tell; so many weakly active limits stay undecided.
+fn on_null_space(point: &Point<'_>, hessian: &Hessian, choice: &Choice, limits: usize) -> Result<Curvature, FactorizationError> {
     let mut kkt = Kkt::new(point, hessian, &choice.free, &choice.held)?;
-    let escape = if kkt.has_negative_curvature(ROUNDING, Effort::Any)? { kkt.lowest_direction(ROUNDING)? } else { None };
-    let undecided = if escape.is_none() { Some(limits) } else { None };
-    Ok(Curvature { escape, undecided, singular: true, ..Curvature::default() })
+    let singular = kkt.has_negative_curvature(-ROUNDING, Effort::Any)?;
+    let mut curvature = Curvature { singular, ..Curvature::default() };
+    let bends_down = singular && kkt.has_negative_curvature(ROUNDING, Effort::Any)?;
+    if bends_down {
+        curvature.escape = kkt.lowest_direction(ROUNDING)?;
+    }
+    if curvature.escape.is_none() && (bends_down || limits > 0) {
+        curvature.leave_undecided(limits);
+    }
+    Ok(curvature)
 }

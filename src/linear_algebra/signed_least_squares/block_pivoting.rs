@@ -18,18 +18,18 @@ pub(super) fn pivoted(
     build: Build,
 ) -> Result<Vec<f64>, FactorizationError> {
     let mut pivoting = Pivoting::new(g, columns, until, Augmented::new(g, columns, build)?);
-    repeated(columns.len(), |centre| pivoting.solve(centre))
+    repeated(columns.len(), |centre| pivoting.solve(centre).map(|y| (y, pivoting.is_settled)))
 }
 
-/// Moves the proximal term's centre after the minimiser until both are the same.
-pub(super) fn repeated<E>(columns: usize, mut solve: impl FnMut(&[f64]) -> Result<Vec<f64>, E>) -> Result<Vec<f64>, E> {
+/// Moves the proximal term's centre after the minimiser until both are the same, or what is found is none: `solve` says whether it is.
+pub(super) fn repeated<E>(columns: usize, mut solve: impl FnMut(&[f64]) -> Result<(Vec<f64>, bool), E>) -> Result<Vec<f64>, E> {
     let mut y = vec![0.0; columns];
     for _ in 0..REPETITIONS {
-        let next = solve(&y)?;
+        let (next, is_settled) = solve(&y)?;
         let moved = next.iter().zip(&y).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
         let size = next.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
         y = next;
-        if moved <= 1e-13 * size {
+        if !is_settled || moved <= 1e-13 * size {
             break;
         }
     }
@@ -41,6 +41,8 @@ pub(super) struct Pivoting<'a, S> {
     columns: &'a [Column<'a>],
     basic: Vec<bool>,
     is_new: bool,
+    /// Whether the last search ended with no column on the wrong side.
+    is_settled: bool,
     /// When to take what is there.
     until: Option<Instant>,
     method: S,
@@ -49,15 +51,17 @@ pub(super) struct Pivoting<'a, S> {
 impl<'a, S: Stationary> Pivoting<'a, S> {
     pub(super) fn new(g: &'a [f64], columns: &'a [Column<'a>], until: Option<Instant>, method: S) -> Self {
         let basic = columns.iter().map(|column| column.basic || column.sign == 0.0).collect();
-        Pivoting { g, columns, basic, is_new: true, until, method }
+        Pivoting { g, columns, basic, is_new: true, is_settled: false, until, method }
     }
 
     /// The minimiser with the proximal term around `centre`.
     pub(super) fn solve(&mut self, centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
         let (mut fewest, mut patience) = (usize::MAX, 5);
         let mut y = self.stationary(centre)?;
+        self.is_settled = false;
         for _ in 0..(20 + 3 * self.columns.len()).min(300) {
             let wrong = self.wrong(&y, centre);
+            self.is_settled = wrong.is_empty();
             let Some(&last) = wrong.last().filter(|_| !is_over(self.until)) else { break };
             if wrong.len() < fewest {
                 (fewest, patience) = (wrong.len(), 5);

@@ -20,18 +20,31 @@ use crate::linear_algebra::entries::Symmetric;
 
 /// Steps that move the proximal term's centre, from multipliers that are nearly right.
 const REFINEMENTS: usize = 2;
+/// Times columns are left out of such multipliers: what loses its sign there is next to zero.
+const LEFT_OUT: usize = 4;
 
-/// The minimiser nearest to `centre`, all columns free to move, whatever their signs.
+/// The minimiser nearest to `centre` over the columns that keep their signs: those that would lose them, by more than `rounding` of the largest,
+/// are left out one after another, and none is taken in again.
 ///
 /// # Errors
 /// The augmented matrix has no factors.
-pub fn nearest(g: &[f64], columns: &[Column<'_>], centre: &[f64]) -> Result<Vec<f64>, FactorizationError> {
+pub fn nearest(g: &[f64], columns: &[Column<'_>], centre: &[f64], rounding: f64) -> Result<Vec<f64>, FactorizationError> {
     let mut system = Augmented::new(g, columns, Symmetric::sparse)?;
-    let basic = vec![true; columns.len()];
+    let mut basic = vec![true; columns.len()];
     let mut y = centre.to_vec();
-    for pass in 0..REFINEMENTS {
-        y = system.stationary(&basic, pass == 0, &y)?;
+    let (mut is_new, mut passes, mut factors) = (true, 0, 0);
+    while passes < REFINEMENTS && factors <= LEFT_OUT {
+        let next = system.stationary(&basic, is_new, &y)?;
+        factors += usize::from(is_new);
+        let least = -rounding * next.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let lost: Vec<usize> = (0..columns.len()).filter(|&k| basic[k] && columns[k].sign * next[k] < least).collect();
+        lost.iter().for_each(|&k| basic[k] = false);
+        is_new = !lost.is_empty();
+        if !is_new {
+            (y, passes) = (next, passes + 1);
+        }
     }
+    y.iter_mut().zip(columns).filter(|(y, column)| **y * column.sign < 0.0).for_each(|(y, _)| *y = 0.0);
     Ok(y)
 }
 
@@ -42,7 +55,7 @@ pub fn nearest(g: &[f64], columns: &[Column<'_>], centre: &[f64]) -> Result<Vec<
 pub fn solve(g: &[f64], columns: &[Column<'_>], until: Option<Instant>) -> Result<Vec<f64>, FactorizationError> {
     if active_set::fits(g.len(), columns.len()) {
         let mut set = ActiveSet::new(g, columns, until);
-        if let Ok(y) = repeated(columns.len(), |centre| set.solve(centre).ok_or(())) {
+        if let Ok(y) = repeated(columns.len(), |centre| set.solve(centre).map(|y| (y, true)).ok_or(())) {
             return Ok(y);
         }
     }

@@ -15,17 +15,22 @@ pub(super) fn jacobian_pattern(own: &Meta, states: States) -> Pattern {
     for row in states.first_row..own.rows() {
         own.jacobian.row(row).iter().filter(|&&j| (j as usize) < n).for_each(|&j| through[j as usize] = true);
     }
-    let through: Vec<u32> = (0..n as u32).filter(|&j| through[j as usize]).collect();
+    let all: Vec<u32> = (0..n as u32).filter(|&j| through[j as usize]).collect();
     // Written down as it stands, row by row: with thousands of rows and variables there is a lot of it.
     let mut pattern = Pattern::default();
     for row in 0..states.first_row {
-        let mut columns: Vec<u32> = own.jacobian.row(row).iter().copied().filter(|&j| (j as usize) < n).collect();
-        if !knows_no_state(own, row, n) {
-            columns.extend(&through);
-            columns.sort_unstable();
-            columns.dedup();
+        let design = own.jacobian.row(row).iter().copied().filter(|&j| (j as usize) < n);
+        if knows_no_state(own, row, n) {
+            pattern.columns.extend(design);
+        } else {
+            let first = pattern.columns.len();
+            pattern.columns.extend(&all);
+            let beside = pattern.columns.len();
+            pattern.columns.extend(design.filter(|&j| !through[j as usize]));
+            if pattern.columns.len() > beside {
+                pattern.columns[first..].sort_unstable();
+            }
         }
-        pattern.columns.append(&mut columns);
         pattern.offsets.push(pattern.columns.len());
     }
     pattern

@@ -240,7 +240,7 @@ pub struct Condensing {
 
 impl Condensing {
     pub(super) const DEFAULT: Self = Condensing {
-        least_order: 2000,
+        least_order: 500,
         stiffest: 1e8,
         least_curvature: 1e-10,
         most_steps: 10,
