@@ -34,7 +34,7 @@ enum Basis {
 impl CongruentSolver {
     /// A solver for a lower triangle by rows, as [`SymmetricSolver::new`] takes it.
     pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, FactorizationError> {
-        Self::with_pivoting(offsets, columns, Pivoting::Threshold)
+        Self::with_pivoting(offsets, columns, Pivoting::ThresholdByPattern)
     }
 
     /// The same for quasi-definite matrices: [`SymmetricSolver::for_quasi_definite`].

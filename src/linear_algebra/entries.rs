@@ -171,5 +171,5 @@ impl Symmetric {
 }
 
 fn sparse(pattern: &Pattern) -> Result<Solver, FactorizationError> {
-    SymmetricSolver::new(&pattern.offsets, &pattern.columns).map(Solver::Sparse)
+    SymmetricSolver::for_few(&pattern.offsets, &pattern.columns).map(Solver::Sparse)
 }

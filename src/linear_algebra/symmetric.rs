@@ -36,6 +36,8 @@ pub struct SymmetricSolver {
 pub(super) enum Pivoting {
     /// By size.
     Threshold,
+    /// The same in an order by the pattern alone: analysed in half the time, for few factors, which are looked at.
+    ThresholdByPattern,
     /// By size within supernodes, as long as that goes well.
     WithinSupernodes,
     /// Not at all, as long as that goes well.
@@ -61,6 +63,11 @@ impl SymmetricSolver {
     /// taken as they come, which is faster and less accurate, but where one is too small.
     pub fn for_quasi_definite(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
         Self::with_pivoting(offsets, columns, Pivoting::Static)
+    }
+
+    /// The same as [`SymmetricSolver::new`] for few matrices of one pattern, analysed in half the time.
+    pub fn for_few(offsets: &[usize], columns: &[u32]) -> Result<Self, FactorizationError> {
+        Self::with_pivoting(offsets, columns, Pivoting::ThresholdByPattern)
     }
 
     pub(super) fn with_pivoting(offsets: &[usize], columns: &[u32], pivoting: Pivoting) -> Result<Self, FactorizationError> {
@@ -90,6 +97,7 @@ impl SymmetricSolver {
         } else {
             match pivoting {
                 Pivoting::Threshold => Method::Sparse(SparseSolver::default()),
+                Pivoting::ThresholdByPattern => Method::Sparse(SparseSolver::by_pattern()),
                 Pivoting::WithinSupernodes => {
                     Method::Guarded(Box::new(GuardedSolver::new(|matrix| Ok(Box::new(BunchKaufmanSolver::new(matrix)?)))))
                 }
