@@ -6,10 +6,9 @@
 
 use super::parameters::bounded::LEAST;
 use super::point::Point;
-use crate::linear_algebra::Effort;
-use crate::linear_algebra::FactorizationError;
 use crate::linear_algebra::entries::Symmetric;
 use crate::linear_algebra::saddle_point::DEPENDENT;
+use crate::linear_algebra::{Effort, FactorizationError};
 use crate::model::Meta;
 
 /// The variables that nothing is known to bound on both sides, ascending.

@@ -149,12 +149,8 @@ impl Bordered {
 
     /// Whether rounding has no part in the inertia for the values factorised last.
     pub fn is_certain(&self, values: &[f64]) -> bool {
-        let mut sizes = vec![0.0; self.pattern.rows()];
-        for ((i, j), value) in self.pattern.iter().zip(values) {
-            sizes[i] = value.abs().max(sizes[i]);
-            sizes[j] = value.abs().max(sizes[j]);
-        }
-        is_certain(&sizes, |right| Some(self.residual(values, right, &self.solved(right)?)))
+        let entries = || self.pattern.iter().zip(values).map(|((i, j), &value)| (i, j, value));
+        is_certain(self.pattern.rows(), entries, |right| self.solved(right))
     }
 
     /// The solution for the values factorised last, refined; `None` where it cannot be had to some digits.

@@ -13,16 +13,32 @@ const PROBES: u64 = 2;
 /// and the residual allowed: an inertia that is wrong passes with a probability of (√(2/3)·0.01)² < 1e-4.
 const LARGEST: f64 = 1e-2;
 
-/// Whether the factors of a matrix tell its inertia. `sizes` are its rows' largest entries, `residual` takes b to b − A·(B⁻¹b).
-pub(super) fn is_certain(sizes: &[f64], residual: impl Fn(&[f64]) -> Option<Vec<f64>>) -> bool {
-    let unit = |size: f64| if size > 0.0 { size } else { 1.0 };
+/// Whether the factors of a matrix of this order tell its inertia. `entries` are those of its lower triangle, row, column and value; `solve` takes b
+/// to B⁻¹b.
+pub(super) fn is_certain<E: Iterator<Item = (usize, usize, f64)>>(
+    order: usize,
+    entries: impl Fn() -> E,
+    solve: impl Fn(&[f64]) -> Option<Vec<f64>>,
+) -> bool {
+    let mut units = vec![0.0; order];
+    for (i, j, value) in entries() {
+        units[i] = value.abs().max(units[i]);
+        units[j] = value.abs().max(units[j]);
+    }
+    units.iter_mut().filter(|unit| **unit == 0.0).for_each(|unit| *unit = 1.0);
     (0..PROBES).all(|probe| {
         let mut numbers = SplitMix::new(probe);
-        let right: Vec<f64> = sizes.iter().map(|&size| unit(size) * 3.0f64.sqrt() * (2.0 * numbers.uniform() - 1.0)).collect();
-        let left =
-            residual(&right).map(|left| left.iter().zip(sizes).map(|(left, &size)| (left / unit(size)).powi(2)).sum::<f64>());
+        let right: Vec<f64> = units.iter().map(|unit| unit * 3.0f64.sqrt() * (2.0 * numbers.uniform() - 1.0)).collect();
+        let Some(x) = solve(&right) else { return false };
+        let mut left = right;
+        for (i, j, value) in entries() {
+            left[i] -= value * x[j];
+            if i != j {
+                left[j] -= value * x[i];
+            }
+        }
         // A comparison with NaN is false.
-        left.is_some_and(|square| square <= LARGEST * LARGEST)
+        left.iter().zip(&units).map(|(left, unit)| (left / unit).powi(2)).sum::<f64>() <= LARGEST * LARGEST
     })
 }
 
@@ -32,11 +48,8 @@ mod tests {
 
     /// Of a diagonal matrix, one of its factors being off by `error`.
     fn is_certain_of(diagonal: [f64; 3], error: f64) -> bool {
-        let sizes = diagonal.map(f64::abs);
-        is_certain(&sizes, |right| {
-            let factor = |k: usize| diagonal[k] + if k == 1 { error } else { 0.0 };
-            Some((0..3).map(|k| right[k] - diagonal[k] * (right[k] / factor(k))).collect())
-        })
+        let factor = |k: usize| diagonal[k] + if k == 1 { error } else { 0.0 };
+        is_certain(3, || (0..3).map(|k| (k, k, diagonal[k])), |right| Some((0..3).map(|k| right[k] / factor(k)).collect()))
     }
 
     #[test]
@@ -46,6 +59,6 @@ mod tests {
             assert!(!is_certain_of([unit, -1e-11 * unit, 3.0 * unit], 3e-11 * unit));
             assert!(!is_certain_of([unit, -1e-11 * unit, 3.0 * unit], 1e-11 * unit), "a pivot of zero");
         }
-        assert!(!is_certain(&[1.0], |_| None));
+        assert!(!is_certain(1, || std::iter::once((0, 0, 1.0)), |_| None));
     }
 }

@@ -163,23 +163,10 @@ impl SymmetricSolver {
         if let Method::Dense(_) = self.method {
             return true;
         }
-        let entries = || positions(&self.matrix).zip(&self.matrix.values);
-        let mut sizes = vec![0.0; self.order()];
-        for ((i, j), value) in entries() {
-            sizes[i] = value.abs().max(sizes[i]);
-            sizes[j] = value.abs().max(sizes[j]);
-        }
-        is_certain(&sizes, |right| {
+        let entries = || positions(&self.matrix).zip(&self.matrix.values).map(|((i, j), &value)| (i, j, value));
+        is_certain(self.order(), entries, |right| {
             let mut x = vec![0.0; right.len()];
-            self.solve_once(right, &mut x).ok()?;
-            let mut residual = right.to_vec();
-            for ((i, j), value) in entries() {
-                residual[i] -= value * x[j];
-                if i != j {
-                    residual[j] -= value * x[i];
-                }
-            }
-            Some(residual)
+            self.solve_once(right, &mut x).ok().map(|()| x)
         })
     }
 
