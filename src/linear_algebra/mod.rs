@@ -14,6 +14,7 @@ pub mod copositive;
 mod dense;
 pub mod entries;
 mod guarded;
+pub mod near_null_space;
 pub mod null_space;
 mod ordering;
 mod outcome;

@@ -7,11 +7,15 @@
 //! cone and s = Gu ≥ 0, uᵀQu ≥ sᵀMs ≥ 0. Conversely, what is weakened by δ is |Q|²δ/4 of curvature at the most. Rows may depend
 //! on one another.
 
+use faer::Mat;
+
 use super::system::{Active, Choice, Hessian, weight};
 use crate::certificate::Side;
-use crate::certificate::parameters::second_order::DELTA;
+use crate::certificate::parameters::second_order::{DELTA, MOST, WORK};
 use crate::certificate::point::Point;
 use crate::linear_algebra::entries::Symmetric;
+use crate::linear_algebra::near_null_space::Rows;
+use crate::linear_algebra::saddle_point::DEPENDENT;
 use crate::linear_algebra::{Effort, FactorizationError};
 
 /// How the matrix is stored and factorised: [`Symmetric::curved`] or [`Symmetric::one_of_many`].
@@ -20,6 +24,9 @@ pub(super) type Build = fn(usize, &[(u32, u32)]) -> Result<Symmetric, Factorizat
 pub(super) struct Cone<'a> {
     point: &'a Point<'a>,
     loose: Vec<usize>,
+    /// The unknowns' directions over the loose variables in their scales, where they are not these variables.
+    basis: Option<Mat<f64>>,
+    unknowns: usize,
     strict: usize,
     weak: usize,
     /// W^½⁻¹, over the loose variables.
@@ -74,7 +81,61 @@ impl<'a> Cone<'a> {
         let mut positions: Vec<(u32, u32)> = (0..(p + m + k) as u32).map(|at| (at, at)).collect();
         positions.extend(entries.iter().chain(&strict_rows).chain(&weak_rows).map(|entry| (entry.0, entry.1)));
         let matrix = build(p + m + k, &positions)?;
-        Ok(Cone { point, loose, strict: m, weak: k, scale, hessian: entries, strict_rows, weak_rows, matrix })
+        Ok(Cone { point, loose, basis: None, unknowns: p, strict: m, weak: k, scale, hessian: entries, strict_rows, weak_rows, matrix })
+    }
+
+    /// The same cone over a basis of the null space of the strict rows: exact where these nearly depend on one another, and dense. `None` where it
+    /// has too many dimensions.
+    pub(super) fn within_strict_rows(&self) -> Result<Option<Self>, FactorizationError> {
+        self.point.in_time()?;
+        let p = self.unknowns;
+        let rows: Vec<(u32, u32, f64)> = self.strict_rows.iter().map(|&(row, j, value)| (row - p as u32, j, value)).collect();
+        let most = MOST.min(WORK / self.order().max(1));
+        let Some(basis) = (Rows { count: self.strict, columns: p, entries: &rows }).null_space(most)? else { return Ok(None) };
+        let d = basis.ncols();
+        let mut curved = Mat::<f64>::zeros(p, d);
+        let mut weak = Mat::<f64>::zeros(self.weak, d);
+        for k in 0..d {
+            for &(a, b, value) in &self.hessian {
+                let (a, b) = (a as usize, b as usize);
+                curved[(a, k)] += value * basis[(b, k)];
+                if a != b {
+                    curved[(b, k)] += value * basis[(a, k)];
+                }
+            }
+            let first = p + self.strict;
+            self.weak_rows.iter().for_each(|&(row, j, value)| weak[(row as usize - first, k)] += value * basis[(j as usize, k)]);
+        }
+        let reduced = basis.transpose() * &curved;
+        let lower = (0..d).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let hessian: Vec<_> = lower.map(|(i, j)| (i as u32, j as u32, 0.5 * (reduced[(i, j)] + reduced[(j, i)]))).collect();
+        // A limit that strict rows hold keeps nothing more.
+        let lengths: Vec<f64> = (0..self.weak).map(|i| weak.row(i).norm_l2()).collect();
+        let kept = (0..self.weak).filter(|&i| lengths[i] > DEPENDENT.sqrt());
+        let weak_rows: Vec<_> = kept
+            .enumerate()
+            .flat_map(|(at, i)| {
+                let (weak, length) = (&weak, lengths[i]);
+                (0..d).map(move |j| ((d + at) as u32, j as u32, weak[(i, j)] / length))
+            })
+            .collect();
+        let k = weak_rows.len() / d.max(1);
+        let mut positions: Vec<(u32, u32)> = (0..(d + k) as u32).map(|at| (at, at)).collect();
+        positions.extend(hessian.iter().chain(&weak_rows).map(|entry| (entry.0, entry.1)));
+        let matrix = Symmetric::one_of_many(d + k, &positions)?;
+        Ok(Some(Cone {
+            point: self.point,
+            loose: self.loose.clone(),
+            basis: Some(basis),
+            unknowns: d,
+            strict: 0,
+            weak: k,
+            scale: self.scale.clone(),
+            hessian,
+            strict_rows: Vec::new(),
+            weak_rows,
+            matrix,
+        }))
     }
 
     /// Whether Q, shifted, is positive on the null space of the strict rows, weakly active limits left aside: the sufficient test.
@@ -89,7 +150,7 @@ impl<'a> Cone<'a> {
 
     fn factor(&mut self, shift: f64, share: f64, weak: f64) -> Result<bool, FactorizationError> {
         self.point.in_time()?;
-        let (p, m, k) = (self.loose.len(), self.strict, self.weak);
+        let (p, m, k) = (self.unknowns, self.strict, self.weak);
         let diagonal = std::iter::repeat_n(shift, p).chain(std::iter::repeat_n(-DELTA, m)).chain(std::iter::repeat_n(weak, k));
         let entries = diagonal.chain(self.hessian.iter().chain(&self.strict_rows).map(|entry| entry.2));
         let inertia = self.matrix.inertia(entries.chain(self.weak_rows.iter().map(|entry| share * entry.2)), Effort::Any)?;
@@ -98,7 +159,7 @@ impl<'a> Cone<'a> {
 
     /// M, row by row.
     pub(super) fn reduced(&self) -> Result<Vec<f64>, FactorizationError> {
-        let (first, k) = (self.loose.len() + self.strict, self.weak);
+        let (first, k) = (self.unknowns + self.strict, self.weak);
         let mut reduced = Vec::with_capacity(k * k);
         for i in 0..k {
             self.point.in_time()?;
@@ -112,7 +173,7 @@ impl<'a> Cone<'a> {
     /// The direction of least curvature among those that leave the weakly active limits by s, in the user's variables, its
     /// largest relative entry 1. `None` where it is not in the cone, by more than what δ may leave.
     pub(super) fn direction(&self, s: &[f64]) -> Result<Option<Vec<f64>>, FactorizationError> {
-        let (p, first) = (self.loose.len(), self.loose.len() + self.strict);
+        let (p, first) = (self.unknowns, self.unknowns + self.strict);
         let mut right = vec![0.0; first + self.weak];
         right[first..].copy_from_slice(s);
         let mut u = self.matrix.solve(&right)?;
@@ -124,6 +185,10 @@ impl<'a> Cone<'a> {
         let slack = DELTA.sqrt() * length;
         let is_inside = change[..self.strict].iter().all(|change| change.abs() <= slack)
             && change[self.strict..].iter().all(|change| *change >= -slack);
+        let u = match &self.basis {
+            Some(basis) => (0..self.loose.len()).map(|j| u.iter().enumerate().map(|(k, u)| basis[(j, k)] * u).sum()).collect(),
+            None => u,
+        };
         let relative: Vec<f64> = u.iter().zip(&self.scale).map(|(u, scale)| u * scale).collect();
         let largest = relative.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         if !(is_inside && largest > 0.0 && largest.is_finite()) {
@@ -138,6 +203,16 @@ impl<'a> Cone<'a> {
 
     /// Rows and variables of the matrix.
     pub(super) fn order(&self) -> usize {
-        self.loose.len() + self.strict + self.weak
+        self.unknowns + self.strict + self.weak
+    }
+
+    /// Weakly active limits of the matrix.
+    pub(super) fn weak(&self) -> usize {
+        self.weak
+    }
+
+    /// Whether there are strict rows.
+    pub(super) fn has_strict_rows(&self) -> bool {
+        self.strict > 0
     }
 }

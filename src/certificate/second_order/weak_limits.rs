@@ -61,8 +61,19 @@ pub(super) fn examine(
     choice: &Choice,
     build: Build,
 ) -> Result<OnCone, FactorizationError> {
-    let k = choice.weak();
     let mut cone = Cone::new(point, active, hessian, choice, build)?;
+    let judged = judge_cone(point, hessian, choice, &mut cone)?;
+    if !matches!(judged, OnCone::Undecided(_)) || !cone.has_strict_rows() {
+        return Ok(judged);
+    }
+    match cone.within_strict_rows()? {
+        Some(mut within) => judge_cone(point, hessian, choice, &mut within),
+        None => Ok(judged),
+    }
+}
+
+fn judge_cone(point: &Point<'_>, hessian: &Hessian, choice: &Choice, cone: &mut Cone<'_>) -> Result<OnCone, FactorizationError> {
+    let k = cone.weak();
     if cone.is_positive_without_weak_limits(-ROUNDING)? {
         return Ok(OnCone::PROVED);
     }
@@ -80,7 +91,7 @@ pub(super) fn examine(
             Ok(cone.direction(&s)?.filter(falls).map_or(OnCone::Undecided(k), OnCone::Falls))
         }
         Verdict::Copositive => {
-            let flat = flat_directions((point, &choice.loose_variables()), hessian, &cone, &reduced, k)?;
+            let flat = flat_directions((point, &choice.loose_variables()), hessian, cone, &reduced, k)?;
             let is_strict =
                 cone.is_positive_on_subspace(-ROUNDING)? && copositive::test(&cone.reduced()?, k, FACES) == Verdict::Copositive;
             Ok(OnCone::Holds { is_strict, flat })
