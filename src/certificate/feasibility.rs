@@ -45,10 +45,10 @@ pub(super) fn nearest(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64
     is_met.then_some(back)
 }
 
-/// Whether a point within `reach` of the variables' sizes meets every row to this tolerance of its own terms, however large the model.
-pub(super) fn is_met_beside(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64) -> bool {
-    let back = |point: Point<'_>| way_back(&point, x.to_vec(), reach, &|at| worst_violation(at).1 <= tolerance);
-    Point::new(origin, x).is_ok_and(|point| back(point).is_some())
+/// A point within `reach` of the variables' sizes that meets every row to this tolerance of its own terms, however large the model.
+pub(super) fn met_beside(origin: &Origin<'_>, x: &[f64], reach: f64, tolerance: f64) -> Option<Vec<f64>> {
+    let point = Point::new(origin, x).ok()?;
+    way_back(&point, x.to_vec(), reach, &|at| worst_violation(at).1 <= tolerance)
 }
 
 /// The worst relative violation and where.
@@ -84,10 +84,11 @@ fn distance(point: &Point<'_>, x: &[f64]) -> f64 {
     x.iter().zip(point.x).zip(&point.sizes).fold(0.0, |most: f64, ((a, b), d)| most.max((a - b).abs() / d))
 }
 
-/// Newton steps from x back to the rows it violates, to the first place that has `arrived`; `None` where that is no place within
+/// Newton steps from x back to the rows it violates, or violated on the way, to the first place that has `arrived`; `None` where that is no place within
 /// `reach` of the point.
 fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Point<'_>) -> bool) -> Option<Vec<f64>> {
-    let violated = |point: &Point<'_>, i: usize| point.row_violation(i) > 0.0;
+    // A row left again by a step towards others would be lost and won by turns.
+    let mut is_violated = vec![false; point.rows.len()];
     for _ in 0..=STEPS {
         if distance(point, &x) > reach || point.is_over() {
             return None;
@@ -99,7 +100,8 @@ fn way_back(point: &Point<'_>, mut x: Vec<f64>, reach: f64, arrived: &dyn Fn(&Po
         if needs_more(point, &at, reach + distance(point, &x)) {
             return None;
         }
-        x = step_back(&at, &violated)?;
+        is_violated.iter_mut().enumerate().for_each(|(i, is_violated)| *is_violated |= at.row_violation(i) > 0.0);
+        x = step_back(&at, &|_, i| is_violated[i])?;
     }
     None
 }

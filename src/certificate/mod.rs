@@ -134,10 +134,10 @@ impl<'a> Certifier<'a> {
         feasibility::nearest(&self.origin, x, reach, self.tolerances.constraint)
     }
 
-    /// Whether a point within `reach` of the variables' sizes meets the rows to this tolerance, relative to their terms: whether what `x` misses them
-    /// by is a solver's rounding, not a contradiction of theirs.
-    pub fn is_met_beside(&self, x: &[f64], reach: f64, tolerance: f64) -> bool {
-        feasibility::is_met_beside(&self.origin, x, reach, tolerance)
+    /// A point within `reach` of the variables' sizes that meets the rows to this tolerance, relative to their terms: where there is one, what `x`
+    /// misses them by is a solver's rounding, not a contradiction of theirs.
+    pub fn met_beside(&self, x: &[f64], reach: f64, tolerance: f64) -> Option<Vec<f64>> {
+        feasibility::met_beside(&self.origin, x, reach, tolerance)
     }
 
     /// Judges `x`; see [`certify`].

@@ -31,7 +31,7 @@ use crate::certificate::impossible_row;
 use crate::recession::{Fall, Ray};
 use infeasible::{Elasticity, Proof};
 use ledger::Ledger;
-use session::{Session, Solver};
+use session::{BESIDE, LAST_DIGITS, Session, Solver};
 pub use start::MovedStart;
 pub use types::{Agreement, Answer, Conflict, LimitMove, Minimum, ObserverFactory, Outcome, Status, Task};
 
@@ -210,19 +210,13 @@ fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>,
     let session = ledger.session;
     let certificate = best.certificate.as_ref()?;
     let x = &best.solution.x;
-    let is_inexact = || certificate.primal_infeasibility > LAST_DIGITS && !session.judge.is_met_beside(x, BESIDE, LAST_DIGITS);
+    let is_inexact = || certificate.primal_infeasibility > LAST_DIGITS && session.judge.met_beside(x, BESIDE, LAST_DIGITS).is_none();
     let is_suspect = || diverging::is_too_far(session, x) || is_inexact();
     if !(certificate.multipliers_not_unique && is_suspect()) {
         return None;
     }
     proved_infeasible(ledger)
 }
-
-/// A violation above this, relative, is more than solvers leave where rows can be met.
-const LAST_DIGITS: f64 = 1e-10;
-
-/// How far a point that meets rows to the last digit may be, in sizes of the variables: as far as the accepted violation can be.
-const BESIDE: f64 = 1e-4;
 
 /// The elastic phase from the start, as far as it ends in a proof that stands against points that seem to meet the rows.
 fn proved_infeasible(ledger: &mut Ledger<'_, '_>) -> Option<(Vec<f64>, Conflict)> {

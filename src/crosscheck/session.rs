@@ -13,6 +13,11 @@ const SPARE: f64 = 1e-3;
 /// Likewise for parts of a model: that much is left for their sum.
 const PART_SPARE: f64 = 0.5;
 
+/// A violation above this, relative, is more than solvers leave where rows can be met.
+pub(super) const LAST_DIGITS: f64 = 1e-10;
+/// How far a point that meets rows to the last digit may be, in sizes of the variables: as far as the accepted violation can be.
+pub(super) const BESIDE: f64 = 1e-4;
+
 /// What one run begins with, and when it may end.
 struct Start<'r> {
     x: &'r [f64],
@@ -169,7 +174,23 @@ impl<'a> Session<'a> {
         let attempt = usize::from(solution.termination != Termination::Refused);
         let mut answer = Answer { attempt, gave_way, ..Answer::unjudged(solver.backend.name(), solution) };
         self.judge_again(&mut answer);
+        self.lead_back(&mut answer);
         answer
+    }
+
+    /// Where the answer misses rows that may contradict one another, or misses them by more than is accepted: the point beside it that meets them,
+    /// if that stands better.
+    fn lead_back(&self, answer: &mut Answer) {
+        let Some(certificate) = answer.certificate.as_ref() else { return };
+        let is_inexact = certificate.primal_infeasibility > LAST_DIGITS && (!answer.feasible || certificate.multipliers_not_unique);
+        let Some(x) = is_inexact.then(|| self.judge.met_beside(&answer.solution.x, BESIDE, LAST_DIGITS)).flatten() else { return };
+        let mut beside = answer.clone();
+        beside.solution.x = x;
+        self.judge_again(&mut beside);
+        let standing = |answer: &Answer| (answer.is_certified(), answer.feasible);
+        if standing(&beside) >= standing(answer) {
+            *answer = beside;
+        }
     }
 
     /// Judges the answer's point anew: whatever moves a point calls this.
