@@ -63,7 +63,7 @@ pub struct Job<'a> {
     pub budget: Budget<'a>,
     /// True once a point passes the certificate: foreign solvers may stop there.
     pub stop_test: Option<StopTest<'a>>,
-    /// The same for solvers that take the model apart.
+    /// The same of any model that the answer is made of: a part, or the model itself, with little to spare.
     pub part_test: Option<PartTest<'a>>,
     /// Called with every iteration (or, where a solver shows none, every improving evaluation).
     pub observer: &'a mut dyn FnMut(&Iteration<'_>),

@@ -210,7 +210,8 @@ fn contradicted(ledger: &mut Ledger<'_, '_>, best: &Answer) -> Option<(Vec<f64>,
     let session = ledger.session;
     let certificate = best.certificate.as_ref()?;
     let x = &best.solution.x;
-    let is_inexact = || certificate.primal_infeasibility > LAST_DIGITS && session.judge.met_beside(x, BESIDE, LAST_DIGITS).is_none();
+    let is_inexact =
+        || certificate.primal_infeasibility > LAST_DIGITS && session.judge.met_beside(x, BESIDE, LAST_DIGITS).is_none();
     let is_suspect = || diverging::is_too_far(session, x) || is_inexact();
     if !(certificate.multipliers_not_unique && is_suspect()) {
         return None;

@@ -182,8 +182,11 @@ impl<'a> Session<'a> {
     /// if that stands better.
     fn lead_back(&self, answer: &mut Answer) {
         let Some(certificate) = answer.certificate.as_ref() else { return };
-        let is_inexact = certificate.primal_infeasibility > LAST_DIGITS && (!answer.feasible || certificate.multipliers_not_unique);
-        let Some(x) = is_inexact.then(|| self.judge.met_beside(&answer.solution.x, BESIDE, LAST_DIGITS)).flatten() else { return };
+        let is_inexact =
+            certificate.primal_infeasibility > LAST_DIGITS && (!answer.feasible || certificate.multipliers_not_unique);
+        let Some(x) = is_inexact.then(|| self.judge.met_beside(&answer.solution.x, BESIDE, LAST_DIGITS)).flatten() else {
+            return;
+        };
         let mut beside = answer.clone();
         beside.solution.x = x;
         self.judge_again(&mut beside);

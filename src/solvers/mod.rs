@@ -16,6 +16,9 @@ pub mod progress;
 
 pub use progress::{Conclusion, Progress, RankedPoint, Reached, Why};
 
+/// Says whether a point passes as an answer: iterations may end there.
+pub type StopTest<'a> = &'a (dyn Fn(&[f64]) -> bool + Sync);
+
 /// A solver that is asked for one iteration after another. It counts nothing and shows nothing: who drives it does.
 pub trait Solver {
     /// What it is called.

@@ -9,10 +9,10 @@ use std::time::Instant;
 use super::{Backend, Job, Solution, Termination};
 use crate::model::views::bounded_states::BoundedStates;
 use crate::model::{Evaluator, Model};
-use crate::solvers::Conclusion;
 use crate::solvers::augmented_lagrangian::{self, AugmentedLagrangian};
 use crate::solvers::block_interior_point::{self, BlockInteriorPoint};
 use crate::solvers::interior_point::InteriorPoint;
+use crate::solvers::{Conclusion, StopTest};
 use executor::{concluded, run};
 
 const INTERIOR_POINT: &str = "interior-point";
@@ -73,7 +73,10 @@ fn by_interior_point(model: &dyn Model, job: &mut Job<'_>) -> Solution {
         }
         None => {
             let multipliers = job.start_multipliers.map(<[f64]>::to_vec);
-            run(InteriorPoint::new(&evaluator, job.start.to_vec(), multipliers), &evaluator, job)
+            // A solved point need only pass: with nothing to spare, as what it is short of is rounding.
+            let passes = job.part_test.map(|test| move |x: &[f64]| test(model, x));
+            let passes = passes.as_ref().map(|test| test as StopTest);
+            run(InteriorPoint::new(&evaluator, job.start.to_vec(), multipliers, passes), &evaluator, job)
         }
     };
     let of_rows = |y| bounded.iter().fold(y, |y, bounded| bounded.multipliers(&solution.x, y));

@@ -81,7 +81,19 @@ impl<'a> Cone<'a> {
         let mut positions: Vec<(u32, u32)> = (0..(p + m + k) as u32).map(|at| (at, at)).collect();
         positions.extend(entries.iter().chain(&strict_rows).chain(&weak_rows).map(|entry| (entry.0, entry.1)));
         let matrix = build(p + m + k, &positions)?;
-        Ok(Cone { point, loose, basis: None, unknowns: p, strict: m, weak: k, scale, hessian: entries, strict_rows, weak_rows, matrix })
+        Ok(Cone {
+            point,
+            loose,
+            basis: None,
+            unknowns: p,
+            strict: m,
+            weak: k,
+            scale,
+            hessian: entries,
+            strict_rows,
+            weak_rows,
+            matrix,
+        })
     }
 
     /// The same cone over a basis of the null space of the strict rows: exact where these nearly depend on one another, and dense. `None` where it

@@ -14,7 +14,7 @@ mod steihaug;
 mod trust_region;
 
 use self::faces::minimise;
-use super::{Conclusion, Progress, RankedPoint, Solver, Why};
+use super::{Conclusion, Progress, RankedPoint, Solver, StopTest, Why};
 use crate::model::views::augmented::{Augmented, MOST_PRODUCTS, needed_products};
 use crate::model::views::scaled::{Scaled, Scales, valid_start};
 use crate::model::{EvaluationError, Evaluator, Meta, Model};
@@ -26,9 +26,6 @@ pub fn refusal(meta: &Meta) -> Option<String> {
     (products > MOST_PRODUCTS)
         .then(|| format!("augmented-lagrangian multiplies rows out, which takes {products} entries here; use interior-point"))
 }
-
-/// Says whether a point passes as an answer: iterations may end there.
-pub type StopTest<'a> = &'a (dyn Fn(&[f64]) -> bool + Sync);
 
 /// The solver. x, multipliers and residuals are those of the scaled model.
 pub struct AugmentedLagrangian<'a> {

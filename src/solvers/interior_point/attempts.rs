@@ -29,13 +29,14 @@ impl Attempts {
         start: &[f64],
         engine: &mut Engine<'a>,
         (ending, conclusion, point): (Ending, Conclusion, RankedPoint),
+        passes: &dyn Fn(&[f64]) -> bool,
     ) -> Result<Option<Engine<'a>>, EvaluationError> {
         let solved = ending.is_solved();
         if self.earlier.as_ref().is_none_or(|earlier| supersedes(&ending, &point, earlier)) {
             self.earlier = Some((ending.clone(), conclusion, point));
         }
         if solved {
-            return self.in_new_scales(model, start, engine);
+            return self.in_new_scales(model, start, engine, passes);
         }
         let after_solved = self.earlier.as_ref().is_some_and(|(ending, ..)| ending.is_solved());
         let hopeless =
@@ -51,6 +52,7 @@ impl Attempts {
         model: &'a dyn Model,
         start: &[f64],
         engine: &mut Engine<'a>,
+        passes: &dyn Fn(&[f64]) -> bool,
     ) -> Result<Option<Engine<'a>>, EvaluationError> {
         if self.rescaled >= PARAMETERS.attempts.most_rescaled {
             return Ok(None);
@@ -65,7 +67,7 @@ impl Attempts {
         // Where the answer is as good in the new scales there is nothing to mend.
         let enough = PARAMETERS.attempts.good_enough.max(engine.state.errors.largest());
         match warm.error_as_answer(model)? {
-            error if error <= enough => Ok(None),
+            error if error <= enough || self.earlier.as_ref().is_some_and(|(.., point)| passes(&point.x)) => Ok(None),
             error if error <= PARAMETERS.epsilon_acceptable => {
                 // What is nearly solved in scales that fit is solved by one more run; variables that are nothing but rounding never fit.
                 self.rescaled = PARAMETERS.attempts.most_rescaled;

@@ -47,7 +47,7 @@ mod tests;
 mod vectors;
 mod watchdog;
 
-use super::{Conclusion, Progress, RankedPoint, Solver};
+use super::{Conclusion, Progress, RankedPoint, Solver, StopTest};
 use crate::model::Evaluator;
 use attempts::Attempts;
 use begin::InitialPoint;
@@ -59,14 +59,20 @@ pub struct InteriorPoint<'a> {
     model: &'a Evaluator<'a>,
     start: Vec<f64>,
     multipliers: Option<Vec<f64>>,
+    stop_test: Option<StopTest<'a>>,
     engine: Option<Engine<'a>>,
     attempts: Attempts,
 }
 
 impl<'a> InteriorPoint<'a> {
-    /// From `start`, with row multipliers of an earlier answer if there are any.
-    pub fn new(model: &'a Evaluator<'a>, start: Vec<f64>, multipliers: Option<Vec<f64>>) -> Self {
-        InteriorPoint { model, start, multipliers, engine: None, attempts: Attempts::default() }
+    /// From `start`, with row multipliers of an earlier answer if there are any. What passes the stop test is not solved again in other scales.
+    pub fn new(
+        model: &'a Evaluator<'a>,
+        start: Vec<f64>,
+        multipliers: Option<Vec<f64>>,
+        stop_test: Option<StopTest<'a>>,
+    ) -> Self {
+        InteriorPoint { model, start, multipliers, stop_test, engine: None, attempts: Attempts::default() }
     }
 }
 
@@ -92,7 +98,8 @@ impl Solver for InteriorPoint<'_> {
         };
         let (conclusion, point) = engine.conclude(&ending);
         let progress = Progress::at(point.clone(), engine.state.step_norm, self.model.evaluations());
-        match self.attempts.next(self.model, &self.start, engine, (ending, conclusion, point)) {
+        let passes = |x: &[f64]| self.stop_test.is_some_and(|test| test(x));
+        match self.attempts.next(self.model, &self.start, engine, (ending, conclusion, point), &passes) {
             Ok(Some(next)) => {
                 *engine = next;
                 progress
