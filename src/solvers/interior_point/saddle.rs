@@ -29,7 +29,7 @@ impl Escapes {
 
 impl State<'_> {
     fn leave_saddle(&mut self) -> Result<bool, EvaluationError> {
-        let Some(direction) = self.downward_curvature()? else { return Ok(false) };
+        let Some((direction, curvature)) = self.downward_curvature()? else { return Ok(false) };
         let longest = self.escape_length(&direction);
         let from = self.iterate.objective;
         let mut lowest: Option<(f64, f64)> = None;
@@ -44,8 +44,22 @@ impl State<'_> {
         }
         let rounding = PARAMETERS.saddle.rounding * from.abs();
         let Some((_, length)) = lowest.filter(|(objective, _)| *objective <= from + rounding) else { return Ok(false) };
+        // The objective falls along directions that leave the rows as well: f + yᵀg falls only by the curvature.
+        if self.slope_across_rows(&direction) * length.abs() >= 0.5 * curvature.abs() * length * length {
+            return Ok(false);
+        }
         moved(&self.iterate.w, length, &direction, &mut self.trial.w);
         self.go_on_from_trial()
+    }
+
+    /// |y|ᵀ|Jd|: what a direction that is tangent to the rows but for rounding and regularisation has of their slopes.
+    fn slope_across_rows(&self, direction: &[f64]) -> f64 {
+        let (form, iterate) = (&self.form, &self.iterate);
+        let across = |i: usize| {
+            let along = |at: usize| iterate.jacobian[at] * direction[form.jacobian.columns[at] as usize];
+            form.jacobian.range(i).map(along).sum::<f64>() - form.slack[i].map_or(0.0, |slack| direction[slack])
+        };
+        iterate.y.iter().enumerate().map(|(i, y)| (y * across(i)).abs()).sum()
     }
 
     /// The longest step along ±direction inside the bounds, at most `length`.
@@ -58,8 +72,8 @@ impl State<'_> {
         PARAMETERS.saddle.distance * (1.0 + norm_max(&self.iterate.w[..self.form.variables()])) / norm_max(direction)
     }
 
-    /// A direction of negative curvature of the barrier's Lagrangian, tangent to the rows; `None` where there is none.
-    fn downward_curvature(&mut self) -> Result<Option<Vec<f64>>, EvaluationError> {
+    /// A direction of negative curvature of the barrier's Lagrangian, tangent to the rows, and that curvature; `None` where there is none.
+    fn downward_curvature(&mut self) -> Result<Option<(Vec<f64>, f64)>, EvaluationError> {
         let Self { form, iterate, work: Workspace { hessian, sigma, .. }, kkt, .. } = self;
         match form.hessian(&iterate.w, &iterate.y, hessian) {
             Err(EvaluationError::Invalid { .. }) => return Ok(None),
@@ -76,7 +90,8 @@ impl State<'_> {
         }
         let Some(direction) = inverse_iteration(kkt, form) else { return Ok(None) };
         let significant = -PARAMETERS.saddle.curvature * norm_max(hessian).max(f64::MIN_POSITIVE);
-        Ok((curvature(form, hessian, sigma, &direction) < significant).then_some(direction))
+        let curvature = curvature(form, hessian, sigma, &direction);
+        Ok((curvature < significant).then_some((direction, curvature)))
     }
 
     /// Makes the trial point the iterate, with a larger barrier parameter and fresh multipliers.
